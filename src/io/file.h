@@ -1,0 +1,17 @@
+#pragma once
+// Reading and writing whole files.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace espalier {
+
+/// The whole file. Throws Error naming it when it is missing, a folder, unreadable or larger than `most_bytes`.
+std::string read_file(const std::string& path, std::uint64_t most_bytes = 1ull << 30);
+
+/// Writes to a temporary file in the same folder, syncs, and renames; an existing file is replaced whole or not at all.
+/// Throws Error naming the file and the system's reason.
+void write_file(const std::string& path, std::string_view bytes);
+
+}  // namespace espalier

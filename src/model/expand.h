@@ -1,0 +1,37 @@
+#pragma once
+// Expansion: one forward sweep over a derivation, parents first, running the program of each gene's (rule, variant).
+
+#include <memory>
+
+#include "derivation/derivation.h"
+#include "model/model.h"
+
+namespace espalier {
+
+enum class ExpandTo : std::uint8_t {
+  parts,  // rules only: bones and emits, no details
+  full,   // details too
+};
+
+struct ExpandLimits {
+  std::uint32_t most_parts = 1'000'000;  // emits and detail calls; then details stop and Model::truncated is set
+};
+
+/// Runs programs; holds the scratch memory of one thread. The graph must outlive it.
+class Expander {
+ public:
+  explicit Expander(const GeneratorGraph& graph, const ExpandLimits& limits = {});
+  ~Expander();
+  Expander(Expander&&) noexcept;
+
+  /// Replaces `model` by the model of `derivation`, a valid derivation of the graph. No allocation once warm.
+  void expand(const Derivation& derivation, ExpandTo phase, Model& model);
+
+ private:
+  struct Scratch;
+  const GeneratorGraph* graph_;
+  ExpandLimits limits_;
+  std::unique_ptr<Scratch> scratch_;
+};
+
+}  // namespace espalier
