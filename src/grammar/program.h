@@ -30,7 +30,7 @@ struct RegisterLayout {
 
 enum class Arithmetic : std::uint8_t {
   // unary
-  negate, logical_not, absolute, floor, ceil, round, sqrt, exp, log, sin, cos, tan, asin, acos,
+  negate, logical_not, absolute, floor, ceil, round, sqrt, exp, log, sin, cos, tan, asin, acos, atan,
   // binary
   add, subtract, multiply, divide, modulo, power, minimum, maximum, atan2,
   less, less_equal, greater, greater_equal, equal, not_equal, logical_and, logical_or,

@@ -1,0 +1,26 @@
+#pragma once
+// The way from text to graph, all passes in order: lexer, parser, checker, compiler.
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "base/diagnostic.h"
+#include "grammar/graph.h"
+
+namespace espalier {
+
+struct GrammarSource {
+  std::string path;  // for messages, and the folder that mesh files are relative to
+  std::string text;
+  std::map<std::string, std::string> attributes;  // overrides by name, values as written after `=`
+};
+
+struct CompileResult {
+  std::shared_ptr<const GeneratorGraph> graph;  // null when there are errors
+  Diagnostics diagnostics;
+};
+
+CompileResult compile_grammar(const GrammarSource& source);
+
+}  // namespace espalier
