@@ -57,11 +57,13 @@ class MeshTable {
 
   const MeshRef& ref(std::size_t i) const { return refs_[i]; }
   const Mesh& mesh(std::size_t i) const { return meshes_[i]; }
+  const Bounds& mesh_bounds(std::size_t i) const { return bounds_[i]; }
   std::size_t size() const { return meshes_.size(); }
 
  private:
   std::vector<MeshRef> refs_;
   std::vector<Mesh> meshes_;
+  std::vector<Bounds> bounds_;
 };
 
 /// The box around the instances that `full` (else: parts) shows, from their meshes' bounds. Empty if there are none.

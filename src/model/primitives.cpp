@@ -1,0 +1,193 @@
+#include "model/primitives.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include <glm/geometric.hpp>
+
+#include "base/check.h"
+
+namespace espalier {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr std::uint16_t kSphereSides = 32, kSphereRings = 16;
+
+struct CirclePoint {
+  double cos, sin;
+};
+
+/// The point i / n around the unit circle by the Taylor series on one octant, mirrored into the others: the same bits on
+/// every CPU (libm's double sine is not), and exactly symmetric where n is a multiple of 4.
+CirclePoint circle_point(std::uint32_t i, std::uint32_t n) {
+  const std::uint32_t eighths = 8 * i / n;
+  const bool flipped = eighths % 2 == 1;  // odd octants are measured back from their end
+  const std::uint32_t numerator = flipped ? n * (eighths + 1) - 8 * i : 8 * i - n * eighths;
+  const double x = 2 * kPi * numerator / (8.0 * n), x2 = x * x;
+  double sine = 0, cosine = 0;
+  for (int k = 9; k >= 0; --k) {
+    cosine = 1 - (k == 9 ? 0 : cosine) * x2 / ((2 * k + 1) * (2 * k + 2));
+    sine = 1 - (k == 9 ? 0 : sine) * x2 / ((2 * k + 2) * (2 * k + 3));
+  }
+  sine *= x;
+  switch (eighths % 8) {
+    case 0: return {cosine, sine};
+    case 1: return {sine, cosine};
+    case 2: return {-sine, cosine};
+    case 3: return {-cosine, sine};
+    case 4: return {-cosine, -sine};
+    case 5: return {-sine, -cosine};
+    case 6: return {sine, -cosine};
+    default: return {cosine, -sine};
+  }
+}
+
+std::uint32_t add_vertex(Mesh& mesh, const Vec3& position, const Vec3& normal) {
+  mesh.positions.push_back(position);
+  mesh.normals.push_back(normal);
+  return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+}
+
+/// A flat convex face, corners counter-clockwise seen from outside.
+void add_face(Mesh& mesh, std::initializer_list<Vec3> corners) {
+  const Vec3* c = corners.begin();
+  const Vec3 normal = glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const Vec3& corner : corners) add_vertex(mesh, corner, normal);
+  for (std::uint32_t k = 2; k < corners.size(); ++k) mesh.triangles.push_back({first, first + k - 1, first + k});
+}
+
+Mesh make_box() {
+  Mesh mesh;
+  const float h = 0.5f;
+  add_face(mesh, {{-h, -h, h}, {h, -h, h}, {h, h, h}, {-h, h, h}});
+  add_face(mesh, {{h, -h, -h}, {-h, -h, -h}, {-h, h, -h}, {h, h, -h}});
+  add_face(mesh, {{h, -h, h}, {h, -h, -h}, {h, h, -h}, {h, h, h}});
+  add_face(mesh, {{-h, -h, -h}, {-h, -h, h}, {-h, h, h}, {-h, h, -h}});
+  add_face(mesh, {{-h, h, h}, {h, h, h}, {h, h, -h}, {-h, h, -h}});
+  add_face(mesh, {{-h, -h, -h}, {h, -h, -h}, {h, -h, h}, {-h, -h, h}});
+  return mesh;
+}
+
+Mesh make_wedge() {
+  Mesh mesh;
+  const float h = 0.5f;
+  add_face(mesh, {{-h, -h, h}, {h, -h, h}, {h, h, h}, {-h, h, h}});      // the high end
+  add_face(mesh, {{-h, -h, -h}, {h, -h, -h}, {h, -h, h}, {-h, -h, h}});  // below
+  add_face(mesh, {{-h, -h, -h}, {-h, h, h}, {h, h, h}, {h, -h, -h}});    // the ramp
+  add_face(mesh, {{h, -h, -h}, {h, h, h}, {h, -h, h}});
+  add_face(mesh, {{-h, -h, -h}, {-h, -h, h}, {-h, h, h}});
+  return mesh;
+}
+
+Mesh make_pyramid() {
+  Mesh mesh;
+  const float h = 0.5f;
+  const Vec3 apex(0, h, 0);
+  add_face(mesh, {{-h, -h, -h}, {h, -h, -h}, {h, -h, h}, {-h, -h, h}});
+  add_face(mesh, {{-h, -h, h}, {h, -h, h}, apex});
+  add_face(mesh, {{h, -h, h}, {h, -h, -h}, apex});
+  add_face(mesh, {{h, -h, -h}, {-h, -h, -h}, apex});
+  add_face(mesh, {{-h, -h, -h}, {-h, -h, h}, apex});
+  return mesh;
+}
+
+Mesh make_quad() {
+  Mesh mesh;
+  const float h = 0.5f;
+  add_face(mesh, {{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}});
+  return mesh;
+}
+
+/// A pointed outline that is widest below the middle; stem at y = -0.5, tip at y = +0.5.
+Mesh make_leaf() {
+  const float h = 0.5f;
+  Mesh mesh;
+  add_face(mesh, {{0, -h, 0}, {0.28f, -0.40f, 0}, {0.45f, -0.24f, 0}, {h, -0.06f, 0}, {0.43f, 0.14f, 0},
+                  {0.26f, 0.33f, 0}, {0, h, 0}, {-0.26f, 0.33f, 0}, {-0.43f, 0.14f, 0}, {-h, -0.06f, 0},
+                  {-0.45f, -0.24f, 0}, {-0.28f, -0.40f, 0}});
+  return mesh;
+}
+
+/// A disc at height y, facing up or down.
+void add_cap(Mesh& mesh, float y, float radius, std::uint32_t sides, bool up) {
+  const Vec3 normal(0, up ? 1 : -1, 0);
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const CirclePoint c = circle_point(i, sides);
+    add_vertex(mesh, {radius * static_cast<float>(c.cos), y, radius * static_cast<float>(c.sin)}, normal);
+  }
+  // The angle runs from +x to +z, which is clockwise seen from above.
+  for (std::uint32_t k = 2; k < sides; ++k) {
+    mesh.triangles.push_back(up ? Triangle{first, first + k, first + k - 1} : Triangle{first, first + k - 1, first + k});
+  }
+}
+
+Mesh make_cone(float top, std::uint32_t sides) {
+  Mesh mesh;
+  const float upper = 0.5f * top;
+  // The side leans inwards by (0.5 - upper) over a height of 1.
+  const double rise = 0.5 - static_cast<double>(upper), across = 1 / std::sqrt(1 + rise * rise);
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const CirclePoint c = circle_point(i, sides);
+    const Vec3 normal(glm::dvec3(c.cos * across, rise * across, c.sin * across));
+    const Vec3 outward(static_cast<float>(c.cos), 0, static_cast<float>(c.sin));
+    add_vertex(mesh, 0.5f * outward - Vec3(0, 0.5f, 0), normal);
+    add_vertex(mesh, upper * outward + Vec3(0, 0.5f, 0), normal);
+  }
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const std::uint32_t low = 2 * i, next = 2 * ((i + 1) % sides);
+    mesh.triangles.push_back({low, low + 1, next});
+    if (upper > 0) mesh.triangles.push_back({next, low + 1, next + 1});
+  }
+  add_cap(mesh, -0.5f, 0.5f, sides, false);
+  if (upper > 0) add_cap(mesh, 0.5f, upper, sides, true);
+  return mesh;
+}
+
+Mesh make_sphere() {
+  Mesh mesh;
+  const auto add = [&](const Vec3& direction) { return add_vertex(mesh, 0.5f * direction, direction); };
+  const std::uint32_t sides = kSphereSides, rings = kSphereRings, bottom = add({0, -1, 0});
+  for (std::uint32_t r = 1; r < rings; ++r) {
+    const CirclePoint ring = circle_point(r, 2 * rings);  // from the south pole upwards
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const CirclePoint c = circle_point(i, sides);
+      add(Vec3(glm::dvec3(ring.sin * c.cos, -ring.cos, ring.sin * c.sin)));
+    }
+  }
+  const std::uint32_t top = add({0, 1, 0});
+  const auto at = [&](std::uint32_t ring, std::uint32_t i) { return 1 + (ring - 1) * sides + i % sides; };
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    mesh.triangles.push_back({bottom, at(1, i), at(1, i + 1)});
+    for (std::uint32_t r = 1; r + 1 < rings; ++r) {
+      mesh.triangles.push_back({at(r, i), at(r + 1, i), at(r, i + 1)});
+      mesh.triangles.push_back({at(r, i + 1), at(r + 1, i), at(r + 1, i + 1)});
+    }
+    mesh.triangles.push_back({at(rings - 1, i), top, at(rings - 1, i + 1)});
+  }
+  return mesh;
+}
+
+}  // namespace
+
+Mesh make_primitive(MeshKind kind, float top, std::uint16_t sides) {
+  CHECK(kind != MeshKind::file);
+  const std::uint32_t facets = std::max<std::uint32_t>(sides, 3);
+  Mesh mesh;
+  switch (kind) {
+    case MeshKind::box: mesh = make_box(), mesh.name = "box"; break;
+    case MeshKind::cylinder: mesh = make_cone(1, facets), mesh.name = "cylinder"; break;
+    case MeshKind::cone: mesh = make_cone(top > 0 ? top : 0, facets), mesh.name = "cone"; break;
+    case MeshKind::sphere: mesh = make_sphere(), mesh.name = "sphere"; break;
+    case MeshKind::wedge: mesh = make_wedge(), mesh.name = "wedge"; break;
+    case MeshKind::pyramid: mesh = make_pyramid(), mesh.name = "pyramid"; break;
+    case MeshKind::quad: mesh = make_quad(), mesh.name = "quad"; break;
+    case MeshKind::leaf: mesh = make_leaf(), mesh.name = "leaf"; break;
+    case MeshKind::file: break;
+  }
+  return mesh;
+}
+
+}  // namespace espalier
