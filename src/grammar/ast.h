@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "grammar/kind.h"
 
 namespace espalier::ast {
 
@@ -54,6 +55,7 @@ struct Expr {
   std::string name;
   std::vector<ExprPtr> children;
   std::vector<Arg> args;
+  Kind value_kind = Kind::number;  // set by the checker
 };
 
 struct Block;

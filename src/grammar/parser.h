@@ -1,0 +1,24 @@
+#pragma once
+// The parser: text -> syntax tree, by recursive descent over the EBNF of docs/language.md. It goes on after an error at the
+// next statement or declaration, so that several errors come out in one go.
+
+#include <cstddef>
+#include <string_view>
+
+#include "base/diagnostic.h"
+#include "grammar/ast.h"
+
+namespace espalier {
+
+/// Longer texts are refused (E0105).
+inline constexpr std::size_t kLargestSource = std::size_t{4} << 20;
+/// Deeper braces, parentheses and operators are refused (E0106).
+inline constexpr int kDeepestNesting = 200;
+
+/// The tree of `source`; a best effort where `diagnostics` has errors afterwards.
+ast::Grammar parse(std::string_view source, Diagnostics& diagnostics);
+
+/// One expression alone, such as the value of an attribute on a command line; null where there are errors.
+ast::ExprPtr parse_expression(std::string_view source, Diagnostics& diagnostics);
+
+}  // namespace espalier
