@@ -1,0 +1,70 @@
+#pragma once
+// The genetic algorithm (ShapeGenetics 2017, Algorithms 1 and 2, section 6; Haubenwallner et al. 2016, section 3).
+// A step makes a generation: the best `elitism` individuals unchanged, then pairs of children of selected parents.
+//
+// Cost per step: at most population - elitism evaluations (the first: population). An individual that did not change
+// keeps its score.
+
+#include <vector>
+
+#include "search/engine.h"
+#include "search/ga_settings.h"
+#include "search/ga_variation.h"
+#include "search/selection.h"
+
+namespace espalier {
+
+class GaEngine final : public Engine {
+ public:
+  /// Throws Error for bad settings.
+  GaEngine(const SearchProblem& problem, const GaSettings& settings);
+  GaEngine(const GaEngine&) = delete;
+  GaEngine& operator=(const GaEngine&) = delete;
+
+  /// The first throws Error when the graph yields no derivation within the gene limits.
+  void step() override;
+  std::uint64_t steps() const override { return steps_; }
+  std::uint64_t evaluations() const override { return evaluations_; }
+  std::span<const Individual> population() const override { return population_; }
+  const Individual& best() const override;
+  std::vector<NamedCount> diagnostics() const override { return named(counts_); }
+  void save(std::ostream& out) const override;
+  void load(std::istream& in) override;
+
+ private:
+  void make_initial_population();
+  Derivation make_individual(std::uint32_t index);
+  void make_next_generation();
+  void breed_pair(std::uint32_t pair, std::size_t first_child, std::size_t children);
+  void admit(Child& child, std::size_t place);
+  void remember_population();
+  bool find_known(Individual& individual) const;
+  void score_newcomers();
+  void sort_newcomers();
+
+  SearchProblem problem_;
+  GaSettings settings_;
+  GaVariation variation_;
+  Selection first_, second_;
+  std::uint64_t steps_ = 0;
+  std::uint64_t evaluations_ = 0;
+  GaCounts counts_;
+  Individual best_;
+
+  // Two populations change places every generation, so once warm nothing is allocated.
+  std::vector<Individual> population_;  // sorted, best first
+  std::vector<Individual> newcomers_;   // the generation being made, in order of birth
+  std::vector<char> scored_;            // per newcomer
+  Child children_[2];
+  std::vector<double> scores_;
+  std::vector<const Derivation*> batch_;
+  std::vector<std::size_t> batch_places_;
+  std::vector<std::size_t> order_;
+  struct Known {
+    std::uint64_t hash;
+    std::size_t index;
+  };
+  std::vector<Known> known_;  // reuse_scores only: the population by hash
+};
+
+}  // namespace espalier

@@ -1,0 +1,110 @@
+#include "search/ga_variation.h"
+
+#include "base/check.h"
+#include "derivation/moves.h"
+
+namespace espalier {
+namespace {
+
+struct Entry {
+  const char* name;
+  std::uint64_t GaCounts::*member;
+};
+constexpr Entry kEntries[] = {
+    {"crossed pairs", &GaCounts::crossed_pairs},
+    {"crossover tries", &GaCounts::crossover_tries},
+    {"failed crossovers", &GaCounts::failed_crossovers},
+    {"grown", &GaCounts::grown},
+    {"cut", &GaCounts::cut},
+    {"altered", &GaCounts::altered},
+    {"mutation fallbacks", &GaCounts::mutation_fallbacks},
+    {"failed mutations", &GaCounts::failed_mutations},
+    {"redrawn children", &GaCounts::redrawn_children},
+    {"kept parents", &GaCounts::kept_parents},
+    {"reused scores", &GaCounts::reused_scores},
+    {"short starts", &GaCounts::short_starts},
+};
+static_assert(sizeof(GaCounts) == sizeof(std::uint64_t) * std::size(kEntries));
+
+}  // namespace
+
+std::vector<NamedCount> named(const GaCounts& counts) {
+  std::vector<NamedCount> result;
+  for (const Entry& entry : kEntries) result.push_back({entry.name, counts.*entry.member});
+  return result;
+}
+
+GaCounts counts_from(const std::vector<std::uint64_t>& values) {
+  CHECK(values.size() == std::size(kEntries));
+  GaCounts counts;
+  for (std::size_t i = 0; i < values.size(); ++i) counts.*kEntries[i].member = values[i];
+  return counts;
+}
+
+void GaVariation::vary(const Individual& parent1, const Individual& parent2, RandomStream& random, Child& child1,
+                       Child& child2, GaCounts& counts) const {
+  if (random.chance(settings_.mutation)) {
+    mutate(parent1, random, child1, counts);
+    mutate(parent2, random, child2, counts);
+    return;
+  }
+  const CrossoverSettings crossing = {settings_.crossover, static_cast<int>(settings_.retries),
+                                      settings_.replace_probability};
+  const CrossoverResult result =
+      crossover(graph_, parent1.derivation, parent2.derivation, locks_, locks_, crossing, random,
+                child1.individual.derivation, child2.individual.derivation);
+  ++counts.crossed_pairs;
+  counts.crossover_tries += static_cast<std::uint64_t>(result.tries);
+  counts.failed_crossovers += !result.crossed;
+  child1.individual.score = parent1.score;
+  child2.individual.score = parent2.score;
+  child1.scored = child2.scored = !result.crossed;
+}
+
+void GaVariation::mutate(const Individual& parent, RandomStream& random, Child& child, GaCounts& counts) const {
+  child.individual = parent;
+  child.scored = false;
+  const Kind drawn = draw_kind(random);
+  if (apply(drawn, child.individual.derivation, random, counts)) return;
+  for (const Kind other : {Kind::grow, Kind::cut, Kind::alter}) {
+    if (other == drawn || !(share(other) > 0)) continue;
+    if (!apply(other, child.individual.derivation, random, counts)) continue;
+    ++counts.mutation_fallbacks;
+    return;
+  }
+  ++counts.failed_mutations;
+  child.scored = true;
+}
+
+GaVariation::Kind GaVariation::draw_kind(RandomStream& random) const {
+  const double ball = random.next_unit() * (settings_.grow + settings_.cut + settings_.alter);
+  if (ball < settings_.grow) return Kind::grow;
+  if (ball < settings_.grow + settings_.cut) return Kind::cut;
+  // Rounding may carry the ball onto the end of a wheel without an alter sector.
+  if (settings_.alter > 0) return Kind::alter;
+  return settings_.cut > 0 ? Kind::cut : Kind::grow;
+}
+
+double GaVariation::share(Kind kind) const {
+  switch (kind) {
+    case Kind::grow: return settings_.grow;
+    case Kind::cut: return settings_.cut;
+    case Kind::alter: return settings_.alter;
+  }
+  CHECK(false);
+}
+
+bool GaVariation::apply(Kind kind, Derivation& derivation, RandomStream& random, GaCounts& counts) const {
+  const auto tallied = [](bool done, std::uint64_t& count) {
+    count += done;
+    return done;
+  };
+  switch (kind) {
+    case Kind::grow: return tallied(grow(graph_, derivation, locks_, random), counts.grown);
+    case Kind::cut: return tallied(cut(graph_, derivation, locks_, random), counts.cut);
+    case Kind::alter: return tallied(alter(graph_, derivation, locks_, random), counts.altered);
+  }
+  CHECK(false);
+}
+
+}  // namespace espalier

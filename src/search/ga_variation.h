@@ -1,0 +1,63 @@
+#pragma once
+// Variation of the genetic algorithm: two children from two parents, mutated or crossed, and a tally of what happened.
+// (ShapeGenetics 2017, Algorithm 1 lines "if rand() <= MutationProbability", Algorithm 2, section 5.)
+
+#include <cstdint>
+#include <vector>
+
+#include "derivation/locks.h"
+#include "search/engine.h"
+#include "search/ga_settings.h"
+
+namespace espalier {
+
+/// Running totals; the order is that of `diagnostics()` and of the saved state.
+struct GaCounts {
+  std::uint64_t crossed_pairs = 0;
+  std::uint64_t crossover_tries = 0;
+  std::uint64_t failed_crossovers = 0;  // no compatible subtrees in any try: the children are copies
+  std::uint64_t grown = 0, cut = 0, altered = 0;
+  std::uint64_t mutation_fallbacks = 0;  // the drawn kind did not exist, another did
+  std::uint64_t failed_mutations = 0;    // no kind existed: the child is a copy
+  std::uint64_t redrawn_children = 0;    // outside the gene limits
+  std::uint64_t kept_parents = 0;        // redrawn in vain: a parent stands in
+  std::uint64_t reused_scores = 0;       // individuals whose score was known, elites aside
+  std::uint64_t short_starts = 0;        // initial individuals that could not grow to their length
+
+  bool operator==(const GaCounts&) const = default;
+};
+
+std::vector<NamedCount> named(const GaCounts& counts);
+/// Inverse of `named`; takes the values in its order.
+GaCounts counts_from(const std::vector<std::uint64_t>& values);
+
+/// A child on its way into the next generation. `scored`: it is a copy of a parent and has its score.
+struct Child {
+  Individual individual;
+  bool scored = false;
+};
+
+class GaVariation {
+ public:
+  /// All three must outlive it.
+  GaVariation(const GeneratorGraph& graph, const Locks& locks, const GaSettings& settings)
+      : graph_(graph), locks_(locks), settings_(settings) {}
+
+  /// Overwrites both children. They may lie outside the gene limits. Reuses the children's storage.
+  void vary(const Individual& parent1, const Individual& parent2, RandomStream& random, Child& child1, Child& child2,
+            GaCounts& counts) const;
+
+ private:
+  enum class Kind : std::uint8_t { grow, cut, alter };
+
+  void mutate(const Individual& parent, RandomStream& random, Child& child, GaCounts& counts) const;
+  Kind draw_kind(RandomStream& random) const;
+  double share(Kind kind) const;
+  bool apply(Kind kind, Derivation& derivation, RandomStream& random, GaCounts& counts) const;
+
+  const GeneratorGraph& graph_;
+  const Locks& locks_;
+  const GaSettings& settings_;
+};
+
+}  // namespace espalier
