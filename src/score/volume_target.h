@@ -1,80 +1,93 @@
 #pragma once
 // The volume target: voxels of a model counted against meshes to fill or avoid. (ShapeGenetics 2017, section 8;
-// Haubenwallner et al. 2016, section 3.1.6.)
-//
-// A voxel is *covered* when its centre lies inside a part. inside_i = covered voxels in target i, spilled = covered
-// voxels in no target, overlap = voxels covered by two or more parts (each once; with OverlapCount::hits: hits minus one),
-// outside = voxel centres of the same lattice beyond the grid, counted per part up to a stated bound.
+// Haubenwallner et al. 2016, section 3.1.6.) docs/volume.md has the formulas with examples.
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "base/vec.h"
 #include "model/mesh.h"
 #include "model/model.h"
+#include "score/target.h"
+#include "score/volume_counts.h"
+#include "score/voxel_grid.h"
 
 namespace espalier {
 
-/// A lattice of cubes or bricks. Cell (x, y, z) spans min + (x, y, z) * cell .. + cell; samples are taken at centres.
-/// Linear order: x fastest, then y, then z (x + nx * (y + ny * z)).
-struct VoxelGrid {
-  Vec3 min{0};
-  Vec3 max{1};
-  std::uint32_t cells[3] = {1, 1, 1};
-
-  Vec3 cell_size() const {
-    return (max - min) / Vec3(static_cast<float>(cells[0]), static_cast<float>(cells[1]), static_cast<float>(cells[2]));
-  }
-  std::uint64_t cell_count() const { return std::uint64_t{cells[0]} * cells[1] * cells[2]; }
-  std::uint64_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
-    return x + std::uint64_t{cells[0]} * (y + std::uint64_t{cells[1]} * z);
-  }
-};
-
-inline constexpr std::uint64_t kMostVoxels = 64'000'000;
-
-/// The box around all targets plus 10 % of its size, cut into about `cells` cubes.
-VoxelGrid default_grid(std::span<const Mesh> targets, std::uint64_t cells = 2'000'000);
-
+// fill_i, spill_i: weights of target mesh i. T_i = its voxels; T = voxels of the union of the meshes with fill > 0 (of
+// all meshes if none has); S = smootherstep from 0.
 enum class VolumeForm : std::uint8_t {
-  linear,        // sum_i fill_i * inside_i + spill_i * (covered and outside voxels not in i)   - overlap * overlap_weight
-  smootherstep,  // fill * S(inside / T) - spill * S((spilled + overlap + outside) / 2T)            (2016, eq. 2-6)
-  smootherstep_separate,  // fill * S(inside / T) - spill * S((spilled + outside) / 3T) - overlap * S(overlap / covered)
+  linear,        // sum_i (fill_i * inside_i + spill_i * (covered - inside_i)) - overlap_weight * overlap
+                 //   + outside_weight * outside                                              (2017, section 8)
+  smootherstep,  // sum_i fill_i * S(inside_i / T_i) - sum_i spill_i * S((spilled + overlap + outside) / 2T)    (2016)
+  smootherstep_separate,  // sum_i fill_i * S(inside_i / T_i) - sum_i spill_i * S((spilled + outside) / 3T)
+                          //   - overlap_weight * S(overlap / covered)
 };
+/// What `overlap` means: voxels covered twice or more, each once; or hits beyond the first (hits - covered).
 enum class OverlapCount : std::uint8_t { voxels, hits };
 enum class VolumeView : std::uint8_t { parts, full };
 
 struct VolumeMesh {
-  std::string name;   // for people
-  Mesh mesh;          // in model space
-  double fill = 1;    // per covered voxel inside; negative = avoid
-  double spill = -1;  // linear: per covered voxel not inside. smootherstep: weight of what is wrong, subtracted
+  std::string name;            // for people
+  Mesh mesh;                   // in model space
+  double fill = 1;             // reward for what is inside; negative = avoid
+  std::optional<double> spill; // linear: added per covered voxel not inside (default -1). smootherstep forms: weight of
+                               // what is wrong, subtracted (default 1); negative rewards being elsewhere (avoid scenes)
 };
 
 struct VolumeSettings {
+  std::string name = "volume";
   std::vector<VolumeMesh> meshes;
   VoxelGrid grid;
   VolumeForm form = VolumeForm::linear;
   VolumeView view = VolumeView::full;
   OverlapCount overlap_count = OverlapCount::voxels;
-  double overlap_weight = 0;  // >= 0, subtracted
-  /// linear: per voxel outside the grid, added; default (NaN): the sum of the spill weights, as in the paper.
-  double outside_weight;
+  double overlap_weight = 0;  // >= 0, subtracted; not used by the form `smootherstep`
+  std::optional<double> outside_weight;  // linear: per voxel outside, added; default: the sum of the spill weights
 };
 
-/// Exact counts for one model. All are numbers of voxels.
-struct VolumeCounts {
-  std::vector<std::uint64_t> inside;  // per target mesh
-  std::uint64_t covered = 0;          // union of all parts, in the grid
-  std::uint64_t spilled = 0;          // covered and in no target
-  std::uint64_t overlap = 0;
-  std::uint64_t outside = 0;
-};
+/// Immutable once made; shared by threads, each with a scratch from make_scratch().
+class VolumeTarget final : public Target {
+ public:
+  /// Voxelises the target meshes; keeps what it needs of `meshes` (the parts that models are made of). Throws Error
+  /// on a bad grid, weights that are not finite, no target mesh, or a mesh that covers no voxel.
+  VolumeTarget(VolumeSettings settings, const MeshTable& meshes);
+  ~VolumeTarget() override;
 
-// Owned by the score room: VolumeTarget (kernel) and reference_counts (slow, obviously right) are declared in
-// volume_kernel.h and volume_reference.h.
+  const VolumeSettings& settings() const;
+  const VoxelGrid& grid() const { return settings().grid; }
+  /// Voxels of target mesh i; T of the formulas.
+  std::uint64_t target_voxels(std::size_t i) const;
+  std::uint64_t wanted_voxels() const;
+  /// One line per thing that a person should know: target meshes that are not closed, with their open edges.
+  const std::vector<std::string>& warnings() const;
+
+  /// Counts the instances that settings().view shows. No allocation once the scratch and `counts` are warm.
+  void counts(std::span<const Instance> instances, TargetScratch& scratch, VolumeCounts& counts) const;
+  VolumeCounts counts(std::span<const Instance> instances, TargetScratch& scratch) const;
+
+  double evaluate(const VolumeCounts& counts) const;
+  /// The terms whose values add up to evaluate(counts).
+  std::vector<Term> breakdown(const VolumeCounts& counts) const;
+  /// "81 % filled, 6 % spilled, 2 % overlap": filled of the wanted voxels, spilled and overlapping of the covered ones.
+  std::string describe(const VolumeCounts& counts) const;
+
+  const std::string& name() const override { return settings().name; }
+  TargetView view() const override;
+  std::unique_ptr<TargetScratch> make_scratch() const override;
+  double score(const Derivation& derivation, const Model& model, TargetScratch* scratch) const override;
+  /// Every voxel that is worth it covered once, nothing else: linear: sum over the grid's voxels of max(0, weight);
+  /// smootherstep forms: sum of the positive fills, plus -sum(spill) where that is positive.
+  double optimum() const override { return optimum_; }
+  Explanation explain(const Derivation& derivation, const Model& model, TargetScratch* scratch) const override;
+
+ private:
+  struct Parts;
+  std::unique_ptr<const Parts> parts_;
+  double optimum_ = 0;
+};
 
 }  // namespace espalier

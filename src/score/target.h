@@ -1,0 +1,67 @@
+#pragma once
+// Target: one wish about a model, giving a number and an explanation for people. Open for more kinds (silhouettes,
+// curves): one header per kind; the cost of the virtual call is per model.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "derivation/derivation.h"
+#include "model/model.h"
+
+namespace espalier {
+
+/// What a target reads, each including those before: the derivation; bones and emits of rules; details too.
+enum class TargetView : std::uint8_t { genes, parts, full };
+
+/// One line of an explanation: value = weight * (what the form makes of count, often count or S(count / of)).
+struct Term {
+  std::string name;   // "inside hull.obj", "overlap"
+  double weight = 0;  // as it enters the score: subtracted weights are negative
+  double count = 0;   // in `unit`s
+  double of = 0;      // the count's natural scale (0 = none): target voxels, covered voxels, ...
+  double value = 0;   // what it adds to the score
+  std::string unit;   // "voxels", "genes"
+};
+
+/// A score taken apart. The values of the terms add up to the score (but for rounding).
+struct Explanation {
+  std::string name;  // of the target; empty for the whole objective
+  double weight = 1; // of the target in its objective; score, optimum and terms are before it
+  double score = 0;
+  double optimum = 0;
+  std::optional<double> percent;  // 100 * score / optimum; none unless optimum > 0
+  std::vector<Term> terms;
+  std::string words;              // "81 % filled, 6 % spilled, 2 % overlap"
+  std::vector<Explanation> targets;  // the objective's: one per target
+};
+
+/// Memory that one thread scores with; made by the target that uses it.
+class TargetScratch {
+ public:
+  virtual ~TargetScratch() = default;
+};
+
+class Target {
+ public:
+  virtual ~Target() = default;
+  virtual const std::string& name() const = 0;
+  virtual TargetView view() const = 0;
+  /// For one thread; may be kept for any number of models. Null where none is needed.
+  virtual std::unique_ptr<TargetScratch> make_scratch() const { return nullptr; }
+  /// Higher is better; finite. `scratch` comes from make_scratch of this very target.
+  virtual double score(const Derivation& derivation, const Model& model, TargetScratch* scratch) const = 0;
+  /// The best score that any model could have (it need not be reachable).
+  virtual double optimum() const = 0;
+  virtual Explanation explain(const Derivation& derivation, const Model& model, TargetScratch* scratch) const = 0;
+};
+
+/// 100 * score / optimum where that says something.
+inline std::optional<double> percent_of(double score, double optimum) {
+  if (!(optimum > 0)) return std::nullopt;
+  return 100 * score / optimum;
+}
+
+}  // namespace espalier
