@@ -1,0 +1,201 @@
+#include "io/mesh_import.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <vector>
+
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "io/file.h"
+
+namespace espalier {
+namespace {
+
+constexpr float kFarthest = 1e9f;  // metres; beyond, single precision no longer holds a shape
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+struct Vertex {
+  Vec3 position, normal;
+
+  bool operator==(const Vertex&) const = default;
+};
+
+/// Gives equal vertices one index, in order of first appearance: open addressing over the finished vertices.
+class Welder {
+ public:
+  Welder() : table_(1024, kNone) {}
+
+  std::uint32_t index_of(Vertex v) {
+    v.position += Vec3(0), v.normal += Vec3(0);  // -0 becomes 0
+    if (2 * vertices_.size() >= table_.size()) grow();
+    const std::size_t place = find(v);
+    if (table_[place] == kNone) {
+      table_[place] = static_cast<std::uint32_t>(vertices_.size());
+      vertices_.push_back(v);
+    }
+    return table_[place];
+  }
+  const std::vector<Vertex>& vertices() const { return vertices_; }
+
+ private:
+  std::size_t find(const Vertex& v) const {
+    std::uint64_t hash = 0;
+    for (const Vec3& part : {v.position, v.normal}) {
+      for (int axis = 0; axis < 3; ++axis) hash = key_below(hash, std::bit_cast<std::uint32_t>(part[axis]));
+    }
+    std::size_t place = hash & (table_.size() - 1);
+    while (table_[place] != kNone && !(vertices_[table_[place]] == v)) place = (place + 1) & (table_.size() - 1);
+    return place;
+  }
+  void grow() {
+    table_.assign(2 * table_.size(), kNone);
+    for (std::uint32_t i = 0; i < vertices_.size(); ++i) table_[find(vertices_[i])] = i;
+  }
+
+  std::vector<std::uint32_t> table_;
+  std::vector<Vertex> vertices_;
+};
+
+Frame to_frame(const aiMatrix4x4& m) {
+  Frame frame;
+  for (unsigned row = 0; row < 3; ++row) {
+    for (unsigned column = 0; column < 3; ++column) frame.basis[column][row] = m[row][column];
+    frame.origin[row] = m[row][3];
+  }
+  return frame;
+}
+
+Frame operator*(const Frame& a, const Frame& b) { return {a.basis * b.basis, a.point(b.origin)}; }
+
+Vec3 to_vec(const aiVector3D& v) { return {v.x, v.y, v.z}; }
+
+/// Unit length, or 0 where the direction is unknown.
+Vec3 unit_or_zero(const Vec3& v) {
+  const float length = glm::length(v);
+  return length > 0 && length < INFINITY ? v / length : Vec3(0);
+}
+
+/// Collects the triangles of a scene into one mesh.
+class Flattener {
+ public:
+  Flattener(const std::string& path, const ImportLimits& limits) : path_(path), limits_(limits) {}
+
+  Mesh flatten(const aiScene& scene) {
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) shaded_ |= scene.mMeshes[i]->HasNormals();
+    std::vector<std::pair<const aiNode*, Frame>> open{{scene.mRootNode, Frame{}}};
+    while (!open.empty()) {
+      const auto [node, world_from_parent] = open.back();
+      open.pop_back();
+      const Frame world_from_node = world_from_parent * to_frame(node->mTransformation);
+      for (unsigned i = 0; i < node->mNumMeshes; ++i) {
+        if (node->mMeshes[i] < scene.mNumMeshes) add(*scene.mMeshes[node->mMeshes[i]], world_from_node);
+      }
+      for (unsigned i = node->mNumChildren; i-- > 0;) open.emplace_back(node->mChildren[i], world_from_node);
+    }
+    return finish();
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const { throw Error(fmt::format("{}: {}", path_, why)); }
+
+  void add(const aiMesh& source, const Frame& world_from_node) {
+    const bool mirrored = glm::determinant(world_from_node.basis) < 0;
+    const Mat3 cofactors = glm::mat3(glm::cross(world_from_node.basis[1], world_from_node.basis[2]),
+                                     glm::cross(world_from_node.basis[2], world_from_node.basis[0]),
+                                     glm::cross(world_from_node.basis[0], world_from_node.basis[1]));
+    known_.assign(source.mNumVertices, kNone);
+    for (unsigned f = 0; f < source.mNumFaces; ++f) {
+      const aiFace& face = source.mFaces[f];
+      if (face.mNumIndices != 3) continue;  // points and lines
+      if (++triangle_count_ > limits_.most_triangles) {
+        fail(fmt::format("more than {} triangles", limits_.most_triangles));
+      }
+      std::array<Vec3, 3> positions;
+      for (unsigned k = 0; k < 3; ++k) {
+        if (face.mIndices[k] >= source.mNumVertices) {
+          fail(fmt::format("a face names vertex {} of {}", face.mIndices[k], source.mNumVertices));
+        }
+        positions[k] = checked(world_from_node.point(to_vec(source.mVertices[face.mIndices[k]])));
+      }
+      const Vec3 across = glm::cross(positions[1] - positions[0], positions[2] - positions[0]);
+      const Vec3 flat = unit_or_zero(mirrored ? -across : across);
+      Triangle t;
+      for (unsigned k = 0; k < 3; ++k) {
+        t[k] = corner(source, face.mIndices[k], positions[k], (mirrored ? -1.0f : 1.0f) * cofactors, flat);
+      }
+      if (mirrored) std::swap(t[1], t[2]);
+      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles_.push_back(t);
+    }
+  }
+
+  /// The index of a corner's vertex. A corner without a usable normal takes that of its face.
+  std::uint32_t corner(const aiMesh& source, unsigned index, const Vec3& position, const Mat3& normals_from_node,
+                       const Vec3& flat) {
+    if (known_[index] != kNone) return known_[index];
+    if (!shaded_) return known_[index] = welder_.index_of({position, Vec3(0)});
+    const Vec3 given = source.HasNormals() ? unit_or_zero(normals_from_node * to_vec(source.mNormals[index])) : Vec3(0);
+    if (given != Vec3(0)) return known_[index] = welder_.index_of({position, given});
+    return welder_.index_of({position, flat == Vec3(0) ? Vec3(0, 1, 0) : flat});
+  }
+
+  Vec3 checked(const Vec3& p) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!std::isfinite(p[axis])) fail(fmt::format("a coordinate is not finite ({})", p[axis]));
+      if (std::abs(p[axis]) > kFarthest) fail(fmt::format("coordinate {} is beyond +-{}", p[axis], kFarthest));
+    }
+    return p;
+  }
+
+  Mesh finish() {
+    if (triangles_.empty()) fail("holds no triangles");
+    Mesh mesh;
+    mesh.name = std::filesystem::path(path_).stem().string();
+    mesh.positions.reserve(welder_.vertices().size());
+    for (const Vertex& v : welder_.vertices()) {
+      mesh.positions.push_back(v.position);
+      if (shaded_) mesh.normals.push_back(v.normal);
+    }
+    mesh.triangles = std::move(triangles_);
+    return mesh;
+  }
+
+  const std::string& path_;
+  const ImportLimits& limits_;
+  bool shaded_ = false;  // some part has normals
+  Welder welder_;
+  std::vector<std::uint32_t> known_;  // per vertex of the part at hand
+  std::vector<Triangle> triangles_;
+  std::uint64_t triangle_count_ = 0;
+};
+
+}  // namespace
+
+Mesh AssimpMeshSource::load(const std::string& path) {
+  const std::string bytes = read_file(path, limits_.most_bytes);
+  Assimp::Importer importer;
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending.empty() || !importer.IsExtensionSupported(ending)) {
+    throw Error(fmt::format("{}: not a mesh format that can be read; the ending \"{}\" is unknown", path, ending));
+  }
+  if (bytes.empty()) throw Error(fmt::format("{}: the file is empty", path));
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_SortByPType);
+  if (!scene || !scene->mRootNode) {
+    throw Error(fmt::format("{}: not a readable mesh: {}", path, importer.GetErrorString()));
+  }
+  Mesh mesh = Flattener(path, limits_).flatten(*scene);
+  mesh.source_hash = content_hash(bytes);
+  return mesh;
+}
+
+}  // namespace espalier
