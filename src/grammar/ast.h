@@ -55,6 +55,7 @@ struct Expr {
   std::string name;
   std::vector<ExprPtr> children;
   std::vector<Arg> args;
+  std::uint16_t height = 1;        // levels of the tree from here down; at most kDeepestNesting (parser.h)
   Kind value_kind = Kind::number;  // set by the checker
 };
 

@@ -14,6 +14,8 @@ namespace espalier {
 inline constexpr std::size_t kLargestSource = std::size_t{4} << 20;
 /// Deeper braces, parentheses and operators are refused (E0106).
 inline constexpr int kDeepestNesting = 200;
+/// More statements are refused (E0105).
+inline constexpr std::size_t kMostStatements = 200'000;
 
 /// The tree of `source`; a best effort where `diagnostics` has errors afterwards.
 ast::Grammar parse(std::string_view source, Diagnostics& diagnostics);
