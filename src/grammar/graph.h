@@ -40,6 +40,7 @@ class DepthValue {
   explicit DepthValue(std::vector<Step> postfix) : postfix_(std::move(postfix)) {}
 
   bool constant() const { return postfix_.empty(); }
+  const std::vector<Step>& postfix() const { return postfix_; }
   double at(const DepthCounts& counts) const { return postfix_.empty() ? constant_ : evaluate(counts); }
 
  private:

@@ -7,7 +7,6 @@
 //   0..2  scope size, live          3  depth of the gene        4  childless (0 or 1)
 //   5..   depth(R) per counted rule, then the draws and lets of the start rule, seen everywhere
 //   local_base..  parameters, draws, lets and temporaries of the program that runs
-// Register `kZeroCoefficient` operands (coefficient 0) read nothing and are the constant `bias`.
 
 #include <cstdint>
 #include <vector>
@@ -26,6 +25,7 @@ struct RegisterLayout {
   Register local_base = kFirstDepthOfRegister;   // first register of what is local to a program
   std::uint32_t count = kFirstDepthOfRegister;   // of all registers, the largest program included
   std::uint32_t save_depth = 0;                  // most frames saved at once
+  std::uint16_t parameters = 0;                  // most parameters of any rule or detail, in floats
 };
 
 enum class Arithmetic : std::uint8_t {
@@ -51,44 +51,47 @@ enum class OpCode : std::uint8_t {
   move_axis,    // along axis by x
   move,         // by (x, y, z)
   turn_axis,    // about axis by x
-  turn,         // about the vector (y register run) by x
+  turn,         // about the vector in registers a.. by x
   scale,        // frame by (x, y, z)
   reflect,      // axis
-  aim,          // axis; direction or point in registers a..a+2; flag = at; x = fraction of the angle
+  aim,          // axis to the direction (flags kAimAt: the point) in registers a.., by x of the angle
   size_axis,    // scope[axis] = x
   size,         // scope = (x, y, z)
   resize_axis,  // scope[axis] *= x
   resize,       // scope *= (x, y, z)
-  save,         // frame, scope, paint, bone, key to save slot a
+  save,         // frame, scope, paint, bone and key to save slot a
   restore,      // from save slot a
   // Output
-  emit,    // mesh x, shape number y; flags kEmitAsIs, kEmitProxy
-  bone,    // from registers a..a+2 to registers b..b+2
+  emit,    // mesh x, top y; flags kEmitAsIs, kEmitProxy
+  bone,    // from registers a.. to registers b..
   paint,   // material x
-  slot,    // slot a (index in the variant's slot list); arguments: list of operands; open_detail/empty_detail call ids
+  slot,    // slot a of the variant, with slot code dst; b names it in detail keys
   detail,  // call site a
+  // Draws: quantile a of the gene, or in details the one keyed by b
+  draw_uniform,     // dst = x + (y - x) u
+  draw_normal,      // mean x, sd y, low z, high in dst
+  draw_loguniform,  // x (y / x)^u
+  draw_integer,     // x + floor((y - x + 1) u)
   // Values
-  draw_uniform,      // dst = x + (y - x) * u[a]
-  draw_normal,       // mean x, sd y, lo z, hi in register b
-  draw_loguniform,   // x * (y / x)^u
-  draw_integer,      // x + floor((y - x + 1) u)
-  draw_chance,       // u < x
-  draw_pick,         // registers b..: weights table a2; picks constant or register values
-  load,              // dst = x
-  load3,             // dst..dst+2 = (x, y, z)
-  unary,             // dst = arithmetic(x)
-  binary,            // dst = arithmetic(x, y)
-  ternary,           // dst = arithmetic(x, y, z)
-  mix_material,      // dst = blend table a at step round(16 x)
-  // Control; targets are op indices
-  jump,          // to b
-  jump_if_zero,  // to b if x == 0
-  jump_unless_used,  // to b if slot a is neither filled nor shows anything
-  loop_begin,    // counter dst from 0 to below round(x) clamped to 1..1024, jump to b when done
-  loop_end,      // to b
-  key,           // detail key = key_below(key, x)
-  reseed,        // detail key = hash of the bits of x
+  load,          // dst = x
+  load3,         // dst.. = (x, y, z)
+  unary,         // dst = arithmetic(x)
+  binary,        // dst = arithmetic(x, y)
+  ternary,       // dst = arithmetic(x, y, z)
+  mix_material,  // dst = a + round(16 clamp(x)): one of 17 blends in a row
+  // Control; b is the index of an op
+  jump,              // to b
+  jump_if_zero,      // to b if x == 0
+  jump_unless_used,  // to b unless slot a is filled
+  loop_test,         // to b once dst >= x, or once it made kMostTurns turns
+  key,               // detail key = key_below(key, x rounded)
+  reseed,            // detail key = a function of the bits of x alone
 };
+
+/// A loop of a detail or an `around` ends after this many turns, whatever its bounds say.
+inline constexpr int kMostTurns = 1024;
+
+inline constexpr std::uint8_t kEmitAsIs = 1, kEmitProxy = 2, kAimAt = 1;
 
 struct Op {
   OpCode code = OpCode::end;
@@ -101,11 +104,11 @@ struct Op {
   Operand x, y, z;
 };
 
-/// A call of a detail rule or the arguments of a spawn: values are copied to the callee's parameter registers.
+/// A call of a detail rule: values are copied to the callee's parameter registers.
 struct CallSite {
-  std::uint16_t detail = 0;      // index into GeneratorGraph::details
-  std::uint32_t site = 0;        // names the call site in detail keys; unique in the grammar
-  std::vector<Operand> args;     // one per float
+  std::uint16_t detail = 0;   // index into GeneratorGraph::details
+  std::uint32_t site = 0;     // names the call in detail keys
+  std::vector<Operand> args;  // one per float
 };
 
 inline constexpr std::uint16_t kNoCall = 0xffff;
@@ -120,10 +123,8 @@ struct SlotCode {
 struct Program {
   std::vector<Op> ops;
   std::vector<CallSite> calls;
-  std::vector<SlotCode> slots;  // one per slot of the variant
-  std::vector<float> table;     // constants of picks
+  std::vector<SlotCode> slots;  // one per slot operation: the copies of a mirror have one each
   std::uint16_t parameters = 0;  // floats, at local_base
-  std::uint16_t draws = 0;       // details: how many keyed quantiles it takes
 };
 
 }  // namespace espalier

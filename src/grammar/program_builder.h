@@ -1,0 +1,55 @@
+#pragma once
+// ProgramBuilder: writes the operations of one program and hands out its registers. Arithmetic on constants is done
+// here and now; sums and multiples of one register become operands and cost nothing at run time.
+
+#include <cstdint>
+
+#include "grammar/program.h"
+#include "grammar/value.h"
+
+namespace espalier {
+
+class ProgramBuilder {
+ public:
+  /// Local registers carry this tag until the size of the global area is known; see `relocate`.
+  static constexpr Register kLocalTag = 0x8000;
+  static constexpr std::uint32_t kMostLocals = 0x7000;
+  static constexpr std::size_t kMostOps = 200'000;
+
+  Register new_local(int count);
+  Operand unary(Arithmetic op, const Operand& a);
+  Operand binary(Arithmetic op, const Operand& a, const Operand& b);
+  Operand ternary(Arithmetic op, const Operand& a, const Operand& b, const Operand& c);
+  /// The operand's value as it is now, in a register of its own unless it is constant or cannot change.
+  Operand capture(const Operand& operand);
+  /// Stores the operands in consecutive registers and returns the first.
+  Register store3(const std::array<Operand, 3>& parts);
+  void load(Register dst, const Operand& operand);
+
+  Op& emit(OpCode code);
+  std::uint32_t here() const { return static_cast<std::uint32_t>(program.ops.size()); }
+  /// Emits a jump whose target is set later by land().
+  std::uint32_t jump(OpCode code, const Operand& condition = {}, std::uint16_t slot = 0);
+  void land(std::uint32_t jump_at) { program.ops[jump_at].b = here(); }
+
+  std::uint32_t enter_save() { return save_depth_++; }
+  void leave_save() { --save_depth_; }
+
+  bool overflow() const { return overflow_; }
+  std::uint32_t locals() const { return locals_; }
+  std::uint32_t most_saves() const { return most_saves_; }
+  void count_save() { most_saves_ = std::max(most_saves_, save_depth_); }
+
+  Program program;
+
+ private:
+  std::uint32_t locals_ = 0;
+  std::uint32_t save_depth_ = 0;
+  std::uint32_t most_saves_ = 0;
+  bool overflow_ = false;
+};
+
+/// Replaces tagged local registers by `local_base + index`.
+void relocate(Program& program, Register local_base);
+
+}  // namespace espalier

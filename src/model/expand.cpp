@@ -1,0 +1,53 @@
+#include "model/expand.h"
+
+#include "base/check.h"
+#include "base/hash.h"
+#include "model/machine.h"
+
+namespace espalier {
+
+struct Expander::Scratch {
+  explicit Scratch(const GeneratorGraph& graph) : machine(graph) {}
+  Machine machine;
+};
+
+Expander::Expander(const GeneratorGraph& graph, const ExpandLimits& limits)
+    : graph_(&graph), limits_(limits), scratch_(std::make_unique<Scratch>(graph)) {}
+Expander::~Expander() = default;
+Expander::Expander(Expander&&) noexcept = default;
+
+void Expander::expand(const Derivation& derivation, ExpandTo phase, Model& model) {
+  Machine& machine = scratch_->machine;
+  model.clear();
+  machine.model = &model;
+  machine.details_wanted = phase == ExpandTo::full && graph_->uses_details;
+  machine.parts_left = limits_.most_parts;
+  machine.turns_left = limits_.most_turns;
+  const auto stride = static_cast<std::uint32_t>(graph_->counted_rules.size() + graph_->registers.parameters);
+  machine.children.reset(stride);
+  machine.calls.reset(stride);
+
+  Pending root;
+  root.state.key = scatter(derivation.detail_seed);
+  float* counts = machine.children.push(root);
+  for (std::size_t i = 0; i < graph_->counted_rules.size(); ++i) counts[i] = 0;
+
+  // Rules: depth first, the last slot of a gene before its first. The budget thins details, never the tree.
+  while (!machine.children.empty()) {
+    const std::size_t last = machine.children.size() - 1;
+    const Pending next = machine.children[last];
+    machine.load_floats(machine.children, last);
+    machine.children.pop_back();
+    const GeneRecord& gene = derivation.genes[next.at.gene];
+    const Variant& variant = variant_of(*graph_, gene);
+    machine.run(variant.program, next, &derivation, &variant);
+  }
+  // Details: first come, first served, so a spent budget thins them evenly.
+  for (std::size_t i = 0; i < machine.calls.size() && !model.truncated; ++i) {
+    const Pending next = machine.calls[i];
+    machine.load_floats(machine.calls, i);
+    machine.run(graph_->details[next.program], next, nullptr, nullptr);
+  }
+}
+
+}  // namespace espalier
