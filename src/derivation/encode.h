@@ -1,5 +1,14 @@
 #pragma once
 // Derivations as JSON (format: docs/formats.md). Exact: decode(encode(d)) == d.
+//
+//   {"espalier_derivation": 1, "grammar": "tree", "grammar_hash": "...", "detail_seed": "0123456789abcdef",
+//    "genes": [
+//   ["Trunk", "", "FE", [1234, 99]],
+//   ["Trunk/Branch", "2", "A", []]]}
+//
+// One entry per gene, depth-first: the name of the edge that leads to it (of the start gene, its rule), its variant by
+// name or index, a letter per slot (Filled, Empty, Open, Absent) and its draws as 32-bit quantiles. A member
+// "provenance", any object, may stand beside these and is skipped; no other member may.
 
 #include <string>
 #include <string_view>
@@ -8,16 +17,19 @@
 
 namespace espalier {
 
-/// The JSON object of a derivation: grammar name and hash, detail seed, and one entry per gene by names of rule and edge.
-/// `indent` < 0: one line.
+inline constexpr int kDerivationVersion = 1;
+
+/// The JSON text of a valid derivation of `graph`, one line per gene, ending with "}" and no line end.
 std::string encode(const GeneratorGraph& graph, const Derivation& derivation);
 
 /// Reads what `encode` wrote. Throws Error (place, rule, value) for anything that is not a derivation of this graph:
-/// unknown version, rule or edge, wrong counts, broken guards or limits, more than `most_genes` genes.
-Derivation decode(const GeneratorGraph& graph, std::string_view json, std::uint32_t most_genes = 4'000'000);
+/// malformed JSON, unknown version, member, rule or edge, wrong counts, broken guards or limits, more than `most_genes`
+/// genes. Another grammar's name or hash is an error too unless `allow_other_grammar`: then the derivation need only fit.
+Derivation decode(const GeneratorGraph& graph, std::string_view json, std::uint32_t most_genes = 4'000'000,
+                  bool allow_other_grammar = false);
 
-/// Empty if `derivation` is a valid derivation of `graph`, otherwise what is wrong with it. Checks everything: counts,
-/// edges against slots, guards, limits. Linear time.
+/// Empty if `derivation` is a valid derivation of `graph`, otherwise what is wrong with it and where. Trusts nothing and
+/// checks everything: counts, edges against slots, variants, guards, limits. Linear time.
 std::string find_fault(const GeneratorGraph& graph, const Derivation& derivation);
 
 }  // namespace espalier

@@ -1,0 +1,188 @@
+#include <algorithm>
+
+#include "derivation/chances.h"
+#include "derivation/growth.h"
+#include "derivation/sample.h"
+#include "derivation/splice.h"
+#include "derivation/sweep.h"
+
+namespace espalier {
+namespace {
+
+struct OpenSlot {
+  std::uint32_t gene = 0;
+  std::uint32_t slot = 0;  // index into the variant's slots
+};
+
+/// Appends the single gene that stands in a slot of `edge`: variant and draws from the prior, slots open. False where
+/// no variant can be.
+bool append_seedling(const GeneratorGraph& graph, EdgeId edge, DepthCounter above, RandomStream& random,
+                     Derivation& out) {
+  const Rule& rule = graph.rule_of(edge);
+  const std::optional<std::uint16_t> picked = pick_variant(rule, above.counts(), random);
+  if (!picked) return false;
+  TreeWriter writer;
+  writer.begin(out);
+  writer.open(edge, *picked);
+  above.enter(rule);
+  append_open_slots(graph, rule, rule.variants[*picked], above.counts(), out.slots);
+  append_draws(rule.variants[*picked], random, out.draws);
+  writer.opened();
+  writer.close();
+  return true;
+}
+
+/// Open slots that can be decided, in order.
+void find_open_slots(const GeneratorGraph& graph, const Derivation& derivation, const LimitLedger& ledger,
+                     std::vector<OpenSlot>& found) {
+  found.clear();
+  std::size_t first = 0;  // of the gene's own slots
+  for (std::uint32_t g = 0; g < derivation.size(); ++g) {
+    const Rule& rule = rule_of(graph, derivation.genes[g]);
+    const Variant& variant = rule.variants[derivation.genes[g].variant];
+    for (std::uint32_t k = 0; k < variant.slots.size(); ++k) {
+      if (derivation.slots[first + k] != SlotState::open) continue;
+      const Edge& edge = graph.edges[rule.slots[variant.slots[k]].edge];
+      if (!edge.required || ledger.has_room(edge.child)) found.push_back({g, k});
+    }
+    first += variant.slots.size();
+  }
+}
+
+/// Decides one open slot by the prior, if there is a way; `made` tells whether the gene made emits or has a bone.
+bool decide(const GeneratorGraph& graph, const OpenSlot& open, LimitLedger& ledger, RandomStream& random,
+            Derivation& derivation, bool& made) {
+  GenePath path;
+  locate(graph, derivation, open.gene, path);
+  const Rule& rule = rule_of(graph, derivation.genes[open.gene]);
+  const EdgeId edge = rule.slots[variant_of(graph, derivation.genes[open.gene]).slots[open.slot]].edge;
+  const Edge& way = graph.edges[edge];
+  const std::size_t slot = path.gene.slot + open.slot;
+  const bool fill =
+      way.required || (random.chance(fill_probability(way, path.above.counts())) && ledger.has_room(way.child));
+  if (!fill) {
+    derivation.slots[slot] = SlotState::empty;
+    return true;
+  }
+  Derivation gene;
+  path.above.enter(rule);
+  if (!append_seedling(graph, edge, path.above, random, gene)) return false;
+  ledger.add(way.child);
+  made = makes_something(variant_of(graph, gene.genes[0]));
+  const GenePosition place = child_in_slot(graph, derivation, path.gene, open.slot);
+  path.steps.push_back({path.gene, open.slot});
+  splice_in_place(derivation, {place, 0, 0, 0}, gene, whole(gene), path.steps);
+  derivation.slots[slot] = SlotState::filled;
+  return true;
+}
+
+/// Writes a closed copy of a derivation.
+class Closer {
+ public:
+  Closer(const GeneratorGraph& graph, const Derivation& from, RandomStream& random)
+      : graph_(graph), from_(from), random_(random) {}
+
+  bool run(LimitLedger ledger, Derivation& out);
+
+ private:
+  struct Frame {
+    GenePosition gene;     // in from
+    GenePosition child;    // in from: the next child
+    std::size_t slots;     // in out: the gene's own
+    std::size_t slot = 0;  // next to look at
+  };
+
+  void push(const GenePosition& gene, Derivation& out);
+  const Rule& rule(const Frame& frame) const { return rule_of(graph_, from_.genes[frame.gene.gene]); }
+
+  const GeneratorGraph& graph_;
+  const Derivation& from_;
+  RandomStream& random_;
+  std::vector<Frame> stack_;
+  TreeWriter writer_;
+  DepthCounter above_;  // of what stands in the slots of the top frame
+  Growth growth_;
+};
+
+void Closer::push(const GenePosition& gene, Derivation& out) {
+  const GeneRecord& record = from_.genes[gene.gene];
+  const GenePosition child = first_child(graph_, from_, gene);
+  writer_.open(record.edge, record.variant);
+  stack_.push_back({gene, child, out.slots.size()});
+  out.slots.insert(out.slots.end(), from_.slots.begin() + gene.slot, from_.slots.begin() + child.slot);
+  out.draws.insert(out.draws.end(), from_.draws.begin() + gene.draw, from_.draws.begin() + child.draw);
+  writer_.opened();
+  above_.enter(rule_of(graph_, record));
+}
+
+bool Closer::run(LimitLedger ledger, Derivation& out) {
+  out.genes.clear(), out.slots.clear(), out.draws.clear();
+  stack_.clear();
+  writer_.begin(out);
+  above_.reset(graph_);
+  push({}, out);
+  while (!stack_.empty()) {
+    Frame& top = stack_.back();
+    const Variant& variant = variant_of(graph_, from_.genes[top.gene.gene]);
+    if (top.slot == variant.slots.size()) {
+      writer_.close();
+      above_.leave(rule(top));
+      stack_.pop_back();
+      continue;
+    }
+    const EdgeId edge = rule(top).slots[variant.slots[top.slot]].edge;
+    SlotState& state = out.slots[top.slots + top.slot++];
+    if (state == SlotState::filled) {
+      const GenePosition child = top.child;
+      top.child = end_of(subtree_at(graph_, from_, child));
+      push(child, out);
+    } else if (state == SlotState::open) {
+      state = graph_.edges[edge].required ? SlotState::filled : SlotState::empty;
+      if (state == SlotState::empty) continue;
+      if (growth_.append(graph_, edge, above_.counts(), random_, ledger, out) != GrowthFault::none) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool makes_something(const Variant& variant) {
+  return std::any_of(variant.program.ops.begin(), variant.program.ops.end(),
+                     [](const Op& op) { return op.code == OpCode::emit || op.code == OpCode::bone; });
+}
+
+bool grow_open_slot(const GeneratorGraph& graph, Derivation& derivation, RandomStream& random) {
+  LimitLedger ledger;
+  ledger.reset(graph, derivation);
+  std::vector<OpenSlot> open;
+  bool decided = false, made = false;
+  while (!made) {
+    find_open_slots(graph, derivation, ledger, open);
+    if (open.empty()) break;
+    const OpenSlot& picked = open[random.below(static_cast<std::uint32_t>(open.size()))];
+    if (!decide(graph, picked, ledger, random, derivation, made)) break;
+    decided = true;
+  }
+  return decided;
+}
+
+bool close_open_slots(const GeneratorGraph& graph, Derivation& derivation, RandomStream& random) {
+  if (std::find(derivation.slots.begin(), derivation.slots.end(), SlotState::open) == derivation.slots.end()) {
+    return true;
+  }
+  LimitLedger ledger;
+  ledger.reset(graph, derivation);
+  Closer closer(graph, derivation, random);
+  Derivation closed;
+  closed.detail_seed = derivation.detail_seed;
+  constexpr int kMostTries = 100;
+  for (int attempt = 0; attempt < kMostTries; ++attempt) {
+    if (!closer.run(ledger, closed)) continue;
+    derivation = std::move(closed);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace espalier
