@@ -110,28 +110,39 @@ std::string read_file(const std::string& path, std::uint64_t most_bytes) {
   return bytes;
 }
 
-void write_file(const std::string& path, std::string_view bytes) {
-  const std::string target = follow_link(path), folder = folder_of(target);
+StagedFile::StagedFile(const std::string& path, std::string_view bytes) : path_(path), target_(follow_link(path)) {
   struct stat info {};
-  const bool exists = ::stat(target.c_str(), &info) == 0;
+  const bool exists = ::stat(target_.c_str(), &info) == 0;
   if (exists && S_ISDIR(info.st_mode)) fail_write(path, EISDIR);
-  if (exists && !S_ISREG(info.st_mode)) return write_special(path, bytes);
-  if (exists && ::access(target.c_str(), W_OK) != 0) fail_write(path, errno);
-
-  std::string temporary;
-  Descriptor file(open_temporary(folder, 0666, temporary));
+  if (exists && ::access(target_.c_str(), W_OK) != 0) fail_write(path, errno);
+  if (exists && !S_ISREG(info.st_mode)) {
+    for_device_ = bytes;
+    return;
+  }
+  Descriptor file(open_temporary(folder_of(target_), 0666, temporary_));
   if (file.get() < 0) fail_write(path, errno);
   bool ok = write_all(file.get(), bytes);
   if (ok && exists) ok = ::fchmod(file.get(), info.st_mode & 07777) == 0;
-  ok = ok && ::fsync(file.get()) == 0 && file.close() && ::rename(temporary.c_str(), target.c_str()) == 0;
-  if (!ok) {
+  if (!ok || ::fsync(file.get()) != 0 || !file.close()) {
     const int code = errno;
-    ::unlink(temporary.c_str());
+    ::unlink(temporary_.c_str());
     fail_write(path, code);
   }
+}
+
+StagedFile::~StagedFile() {
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void StagedFile::commit() {
+  if (temporary_.empty()) return write_special(path_, for_device_);
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail_write(path_, errno);
+  temporary_.clear();
   // Makes the rename last through a power cut; file systems that cannot sync a folder are no failure.
-  const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const Descriptor directory(::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (directory.get() >= 0) static_cast<void>(::fsync(directory.get()));
 }
+
+void write_file(const std::string& path, std::string_view bytes) { StagedFile(path, bytes).commit(); }
 
 }  // namespace espalier

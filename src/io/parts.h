@@ -1,0 +1,39 @@
+#pragma once
+// Parts: what of a model goes into a file, as shared shapes with normals and one entry per instance.
+
+#include <cstdint>
+#include <vector>
+
+#include "model/model.h"
+
+namespace espalier {
+
+/// A mesh as files want it: a unit normal per position, no triangle without area.
+struct Shape {
+  Mesh mesh;
+  Bounds box;
+  bool open = false;  // not closed: to be seen from both sides
+};
+
+struct Part {
+  Frame model_from_shape;
+  std::uint32_t shape = 0;     // index into Parts::shapes
+  std::uint16_t material = 0;  // index into the grammar's materials
+  std::uint32_t gene = 0;
+};
+
+struct Parts {
+  std::vector<Shape> shapes;  // one per mesh and cone ratio, in order of first use
+  std::vector<Part> parts;    // in the model's order
+};
+
+/// The parts that `full` (else: parts) shows. Instances whose frame is not finite, or has no area to show, are left out.
+Parts collect_parts(const Model& model, const MeshTable& meshes, bool full);
+
+/// The part's shape in model space: mirrored parts are turned inside out, so that triangles face outwards.
+Mesh baked(const Shape& shape, const Frame& model_from_shape);
+
+/// Splits flat-shaded meshes so that every position has its face's normal; drops triangles without area.
+Mesh with_normals(const Mesh& mesh);
+
+}  // namespace espalier
