@@ -234,6 +234,7 @@ TEST(Ga, AGrammarWithNothingToVaryStandsStillWithoutNewEvaluations) {
   BudScorer scorer;
   GaSettings settings = small_settings();
   settings.genes = {2, 8};
+  settings.initial_length_min = settings.initial_length_max = 8;
   settings.mutation = 1, settings.grow = settings.cut = 1, settings.alter = 0;
   GaEngine engine({stunted_graph(), {}, &scorer, 1, 0}, settings);
   for (int step = 0; step < 3; ++step) engine.step();

@@ -1,0 +1,28 @@
+#pragma once
+// Grammars from files: text to graph, and the mesh files that they name.
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grammar/graph.h"
+#include "model/model.h"
+
+namespace espalier {
+
+inline constexpr std::uint64_t kMostGrammarBytes = 16ull << 20;
+
+struct LoadedGrammar {
+  std::string path, text;
+  std::shared_ptr<const GeneratorGraph> graph;
+  std::string warnings;  // rendered diagnostics; empty if there are none
+};
+
+/// Throws Error holding all rendered diagnostics when the text has errors, or naming the file when it cannot be read.
+LoadedGrammar load_grammar(const std::string& path, const std::map<std::string, std::string>& attributes);
+
+/// The meshes of a grammar; files are taken relative to its folder. Throws Error.
+MeshTable load_meshes(const LoadedGrammar& grammar, MeshSource& source);
+
+}  // namespace espalier

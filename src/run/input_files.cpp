@@ -1,0 +1,87 @@
+#include "run/input_files.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "io/file.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMostMeshBytes = 512ull << 20;
+
+// How many folders above its own a relative path climbs.
+int climbs(const std::string& path) {
+  int count = 0;
+  for (const fs::path& part : fs::path(path).lexically_normal()) count += part == "..";
+  return count;
+}
+
+}  // namespace
+
+std::string InputFiles::add(const std::string& name, std::string bytes) {
+  const std::string hash = content_hash(bytes);
+  std::string free_name = name;
+  for (int n = 2;; ++n) {
+    const auto taken = std::find_if(files_.begin(), files_.end(), [&](const InputFile& f) { return f.name == free_name; });
+    if (taken == files_.end()) break;
+    if (taken->hash == hash) return free_name;
+    const fs::path path(name);
+    free_name = (path.parent_path() / fmt::format("{}-{}{}", path.stem().string(), n, path.extension().string())).string();
+  }
+  files_.push_back({free_name, std::move(bytes), hash});
+  return free_name;
+}
+
+void InputFiles::add_grammar(const LoadedGrammar& grammar) {
+  int most_climbs = 0;
+  for (const MeshRef& mesh : grammar.graph->meshes) {
+    if (mesh.kind != MeshKind::file) continue;
+    if (fs::path(mesh.path).is_absolute()) {
+      throw Error(fmt::format("{}: mesh paths must be relative to the grammar's folder, got \"{}\"", grammar.path,
+                              mesh.path));
+    }
+    most_climbs = std::max(most_climbs, climbs(mesh.path));
+  }
+  // The grammar keeps as many of its own folders as its meshes climb, so that "../meshes/x.obj" still leads there.
+  const fs::path path = fs::absolute(grammar.path).lexically_normal();
+  fs::path root = path.parent_path();
+  for (int i = 0; i < most_climbs; ++i) root = root.parent_path();
+  const auto name_for = [&](const fs::path& file) {
+    return (fs::path("inputs") / file.lexically_normal().lexically_relative(root)).generic_string();
+  };
+  grammar_name_ = add(name_for(path), grammar.text);
+  for (const MeshRef& mesh : grammar.graph->meshes) {
+    if (mesh.kind != MeshKind::file) continue;
+    const fs::path file = path.parent_path() / mesh.path;
+    add(name_for(file), read_file(file.string(), kMostMeshBytes));
+  }
+}
+
+std::string InputFiles::add_target(const std::string& path) {
+  return add((fs::path("inputs/targets") / fs::path(path).filename()).generic_string(), read_file(path, kMostMeshBytes));
+}
+
+std::map<std::string, std::string> InputFiles::hashes() const {
+  std::map<std::string, std::string> result;
+  for (const InputFile& file : files_) result[file.name] = file.hash;
+  return result;
+}
+
+void InputFiles::write(const std::string& folder) const {
+  for (const InputFile& file : files_) {
+    const fs::path path = fs::path(folder) / file.name;
+    std::error_code error;
+    fs::create_directories(path.parent_path(), error);
+    if (error) throw Error(fmt::format("{}: cannot make the folder: {}", path.parent_path().string(), error.message()));
+    write_file(path.string(), file.bytes);
+  }
+}
+
+}  // namespace espalier

@@ -1,0 +1,65 @@
+#pragma once
+// Progress: what a run tells while it goes on. Observers receive plain values; the sinks below turn them into a bar, plain
+// lines or JSON lines.
+
+#include <cstdint>
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "run/scene.h"
+
+namespace espalier {
+
+struct RunStart {
+  std::string grammar, engine, out;
+  std::uint64_t seed = 0;
+  double optimum = 0;
+  SceneBudget budget;
+  int threads = 1;
+  std::uint64_t voxels = 0;
+};
+
+/// After each step.
+struct StepReport {
+  std::uint64_t step = 0, evaluations = 0;
+  double seconds = 0;  // since the first step began
+  double best = 0;     // ever
+  double mean = 0;     // of the population
+};
+
+struct RunEnd {
+  std::string folder;
+  std::vector<std::string> files;  // the ones worth opening, with their paths
+  double score = 0, optimum = 0;
+  std::optional<double> percent;
+  std::string words;
+  std::uint64_t steps = 0, evaluations = 0;
+  double seconds = 0;
+  std::string stopped_by;  // "seconds", "evaluations", "generations" or "interrupt"
+};
+
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  virtual void started(const RunStart&) {}
+  virtual void step(const StepReport&) {}
+  virtual void warning(const std::string&) {}
+  /// The search is over, its results are being written.
+  virtual void writing() {}
+  virtual void finished(const RunEnd&) {}
+};
+
+/// For a terminal: one line that is drawn anew, at most ten times a second.
+std::unique_ptr<RunObserver> make_bar(std::ostream& out);
+/// For a pipe or file: a line per second at most, then the summary.
+std::unique_ptr<RunObserver> make_lines(std::ostream& out);
+/// One JSON object per line: {"event": "started" | "step" | "warning" | "writing" | "finished", ...}; every step.
+std::unique_ptr<RunObserver> make_json_lines(std::ostream& out);
+
+/// The lines that end a run: score, optimum, percent, words, files.
+std::string summary(const RunEnd& end);
+
+}  // namespace espalier

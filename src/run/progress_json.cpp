@@ -1,0 +1,67 @@
+// Progress as JSON lines.
+#include <ostream>
+
+#include <nlohmann/json.hpp>
+
+#include "run/progress.h"
+
+namespace espalier {
+namespace {
+
+using nlohmann::ordered_json;
+
+class JsonLines final : public RunObserver {
+ public:
+  explicit JsonLines(std::ostream& out) : out_(out) {}
+
+  void started(const RunStart& start) override {
+    ordered_json budget = ordered_json::object();
+    if (start.budget.seconds) budget["seconds"] = *start.budget.seconds;
+    if (start.budget.evaluations) budget["evaluations"] = *start.budget.evaluations;
+    if (start.budget.generations) budget["generations"] = *start.budget.generations;
+    print({{"event", "started"},
+           {"grammar", start.grammar},
+           {"engine", start.engine},
+           {"seed", start.seed},
+           {"threads", start.threads},
+           {"voxels", start.voxels},
+           {"optimum", start.optimum},
+           {"budget", budget},
+           {"out", start.out}});
+  }
+  void step(const StepReport& report) override {
+    print({{"event", "step"},
+           {"step", report.step},
+           {"evaluations", report.evaluations},
+           {"seconds", report.seconds},
+           {"best", report.best},
+           {"mean", report.mean}});
+  }
+  void warning(const std::string& text) override { print({{"event", "warning"}, {"message", text}}); }
+  void writing() override { print({{"event", "writing"}}); }
+  void finished(const RunEnd& end) override {
+    print({{"event", "finished"},
+           {"score", end.score},
+           {"optimum", end.optimum},
+           {"percent", end.percent ? ordered_json(*end.percent) : ordered_json()},
+           {"words", end.words},
+           {"steps", end.steps},
+           {"evaluations", end.evaluations},
+           {"wall_seconds", end.seconds},
+           {"stopped_by", end.stopped_by},
+           {"folder", end.folder},
+           {"files", end.files}});
+  }
+
+ private:
+  void print(const ordered_json& event) {
+    out_ << event.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << '\n' << std::flush;
+  }
+  std::ostream& out_;
+};
+
+}  // namespace
+
+std::unique_ptr<RunObserver> make_json_lines(std::ostream& out) { return std::make_unique<JsonLines>(out); }
+
+}  // namespace espalier

@@ -1,0 +1,81 @@
+#include "run/run_folder.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include <sys/stat.h>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "a/b/" and "a/b/." are a/b.
+std::string without_trailing_slash(const std::string& path) {
+  if (path.empty()) throw Error("--out must name a folder, got \"\"");
+  fs::path p = fs::path(path).lexically_normal();
+  if (!p.has_filename()) p = p.parent_path();
+  if (p.empty() || p == p.root_path() || p.filename() == "." || p.filename() == "..") {
+    throw Error(fmt::format("--out must name a folder of its own, got \"{}\"", path));
+  }
+  return p.string();
+}
+
+std::string make_unique_sibling(const std::string& path) {
+  std::string name = path + ".partial-XXXXXX";
+  if (!mkdtemp(name.data())) {
+    throw Error(fmt::format("{}: cannot make an output folder here: {}", path, std::strerror(errno)));
+  }
+  chmod(name.c_str(), 0755);  // mkdtemp's are for their owner alone
+  return name;
+}
+
+}  // namespace
+
+RunFolder::RunFolder(const std::string& path, std::string_view marker) : path_(without_trailing_slash(path)) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path_, error);
+  if (fs::exists(status)) {
+    if (!fs::is_directory(status)) throw Error(fmt::format("{}: is no folder; --out must name one", path_));
+    const bool empty = fs::is_empty(path_, error) && !error;
+    if (!empty && !fs::exists(fs::path(path_) / marker, error)) {
+      throw Error(fmt::format("{}: holds other files; --out must name a new or empty folder, or one that Espalier wrote "
+                              "(with {})", path_, marker));
+    }
+  }
+  const fs::path parent = fs::path(path_).parent_path();
+  if (!parent.empty()) fs::create_directories(parent, error);
+  if (error) throw Error(fmt::format("{}: cannot make the folder: {}", parent.string(), error.message()));
+  staging_ = make_unique_sibling(path_);
+}
+
+RunFolder::~RunFolder() {
+  if (staging_kept_) return;
+  std::error_code ignored;
+  fs::remove_all(staging_, ignored);
+}
+
+void RunFolder::commit() {
+  std::error_code error;
+  std::string old;
+  if (fs::exists(path_)) {
+    old = make_unique_sibling(path_);
+    fs::rename(path_, old, error);
+  }
+  if (!error) fs::rename(staging_, path_, error);
+  if (error && !old.empty()) {
+    std::error_code ignored;
+    fs::rename(old, path_, ignored);
+  }
+  if (error) throw Error(fmt::format("{}: cannot give the finished folder its name: {}", path_, error.message()));
+  staging_kept_ = true;
+  if (!old.empty()) fs::remove_all(old, error);
+}
+
+}  // namespace espalier

@@ -1,0 +1,94 @@
+#pragma once
+// Scene: what a run is asked for: a grammar, targets, a search, a budget and what to keep. Plain data; docs/scenes.md is
+// its file format. Every default of the format is a default here.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+#include "score/limit_target.h"
+#include "score/volume_target.h"
+#include "search/ga_settings.h"
+
+namespace espalier {
+
+/// When a run ends: whichever comes first. At least one must be given.
+struct SceneBudget {
+  std::optional<double> seconds;
+  std::optional<std::uint64_t> evaluations;
+  std::optional<std::uint64_t> generations;  // steps of the engine; the initial population is the first
+
+  bool operator==(const SceneBudget&) const = default;
+};
+
+struct SceneSearch {
+  std::string engine = "ga";
+  std::string preset = "ga-2017";
+  GaSettings ga;  // the preset with the scene's own values; `genes` comes from the limits
+
+  bool operator==(const SceneSearch&) const = default;
+};
+
+/// A mesh to fill or to avoid: model_from_file = translate * rotate z * rotate y * rotate x * scale.
+struct SceneMesh {
+  std::string file;
+  double fill = 1;
+  std::optional<double> spill;  // none: -1 (linear) or 1 (the other forms)
+  Vec3 position{0};
+  Vec3 scale{1};
+  Vec3 rotation_deg{0};
+
+  bool operator==(const SceneMesh&) const = default;
+};
+
+struct SceneGrid {
+  Vec3 min{0}, max{1};
+  std::array<std::uint32_t, 3> cells = {1, 1, 1};
+
+  bool operator==(const SceneGrid&) const = default;
+};
+
+struct SceneVolume {
+  VolumeForm form = VolumeForm::linear;
+  VolumeView view = VolumeView::full;
+  OverlapCount overlap = OverlapCount::voxels;
+  double overlap_weight = 0;
+  std::optional<double> outside_weight;  // none: the sum of the spill weights
+  std::uint64_t cells = 2'000'000;       // of the grid around the meshes, where `grid` gives none
+  std::optional<SceneGrid> grid;
+  std::vector<SceneMesh> meshes;
+
+  bool operator==(const SceneVolume&) const = default;
+};
+
+struct SceneOutput {
+  std::uint32_t keep = 8;       // alternatives beside the best
+  double distance = 0.3;        // least distance of any two kept (run/diversity.h)
+  std::array<std::uint32_t, 2> picture = {1200, 900};
+
+  bool operator==(const SceneOutput&) const = default;
+};
+
+struct Scene {
+  std::string grammar;  // path, relative to `folder`
+  std::uint64_t seed = 1;
+  std::map<std::string, std::string> attributes;  // values as the language writes them
+  SceneBudget budget;
+  SceneSearch search;
+  double genes_from = 0, genes_to = 0, genes_weight = 0;  // soft ramp; hard limits are search.ga.genes
+  SceneVolume volume;
+  SceneOutput output;
+
+  // Not part of the scene file's meaning, and never written back:
+  std::string folder;  // that paths are relative to
+  int threads = 0;     // 0 = one per core; results do not depend on it
+
+  bool operator==(const Scene&) const = default;
+};
+
+}  // namespace espalier

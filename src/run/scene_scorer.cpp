@@ -1,0 +1,35 @@
+#include "run/scene_scorer.h"
+
+#include "base/check.h"
+
+namespace espalier {
+
+SceneScorer::SceneScorer(const GeneratorGraph& graph, const Objective& objective, Executor& executor)
+    : objective_(objective),
+      executor_(executor),
+      phase_(objective.view() == TargetView::full ? ExpandTo::full : ExpandTo::parts) {
+  workers_.reserve(static_cast<std::size_t>(executor.workers()));
+  for (int i = 0; i < executor.workers(); ++i) {
+    workers_.push_back({Expander(graph), Model(), Objective::Scratch(objective)});
+  }
+}
+
+const Model& SceneScorer::expand(const Derivation& derivation, Worker& worker) const {
+  worker.expander.expand(derivation, phase_, worker.model);
+  return worker.model;
+}
+
+void SceneScorer::score(std::span<const Derivation* const> derivations, std::span<double> scores) {
+  CHECK(derivations.size() == scores.size());
+  executor_.for_each(derivations.size(), [&](std::size_t i, int w) {
+    Worker& worker = workers_[static_cast<std::size_t>(w)];
+    scores[i] = objective_.score(*derivations[i], expand(*derivations[i], worker), worker.scratch);
+  });
+}
+
+Explanation SceneScorer::explain(const Derivation& derivation) {
+  Worker& worker = workers_.front();
+  return objective_.explain(derivation, expand(derivation, worker), worker.scratch);
+}
+
+}  // namespace espalier

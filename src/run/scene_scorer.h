@@ -1,0 +1,38 @@
+#pragma once
+// SceneScorer: scores batches on an executor, one expander, model and scratch per worker.
+
+#include <vector>
+
+#include "base/executor.h"
+#include "model/expand.h"
+#include "score/combined_objective.h"
+#include "score/objective.h"
+
+namespace espalier {
+
+class SceneScorer final : public BatchScorer {
+ public:
+  /// All three must outlive it.
+  SceneScorer(const GeneratorGraph& graph, const Objective& objective, Executor& executor);
+
+  void score(std::span<const Derivation* const> derivations, std::span<double> scores) override;
+  double optimum() const override { return objective_.optimum(); }
+  /// The score of one derivation taken apart.
+  Explanation explain(const Derivation& derivation);
+
+ private:
+  struct Worker {
+    Expander expander;
+    Model model;
+    Objective::Scratch scratch;
+  };
+
+  const Model& expand(const Derivation& derivation, Worker& worker) const;
+
+  const Objective& objective_;
+  Executor& executor_;
+  ExpandTo phase_;
+  std::vector<Worker> workers_;
+};
+
+}  // namespace espalier

@@ -1,0 +1,236 @@
+#include "run/scene_toml.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "io/file.h"
+#include "run/scene_choices.h"
+#include "run/toml_section.h"
+
+namespace espalier {
+namespace {
+
+constexpr std::uint64_t kMostWhole = std::uint64_t{1} << 53;
+constexpr float kFarthest = 1e6f;  // coordinates, metres
+constexpr double kMostWeight = 1e9;
+
+template <typename T, typename U>
+void take(T& place, const std::optional<U>& value) {
+  if (value) place = static_cast<T>(*value);
+}
+
+void read_budget(const TomlValue& table, const std::string& file, SceneBudget& budget) {
+  TomlSection s(table, file, "budget");
+  budget.seconds = s.number("seconds", 1e-3, 1e7);
+  budget.evaluations = s.whole("evaluations", 1, kMostWhole);
+  budget.generations = s.whole("generations", 1, 0xffffffff);
+  s.finish();
+}
+
+// One number, or [from, to].
+void read_initial_length(TomlSection& s, GaSettings& ga) {
+  const TomlValue* value = s.member("initial_length");
+  if (!value) return;
+  if (value->kind == TomlValue::Kind::array) {
+    const auto range = *s.wholes("initial_length", 2, 1, 1'000'000);
+    ga.initial_length_min = static_cast<std::uint32_t>(range[0]);
+    ga.initial_length_max = static_cast<std::uint32_t>(range[1]);
+  } else {
+    ga.initial_length_min = ga.initial_length_max =
+        static_cast<std::uint32_t>(*s.whole("initial_length", 1, 1'000'000));
+  }
+}
+
+void read_search(const TomlValue& table, const std::string& file, SceneSearch& search) {
+  TomlSection s(table, file, "search");
+  static constexpr Choice<int> kEngines[] = {{"ga", 0}};
+  if (s.choice("engine", kEngines)) search.engine = "ga";
+  if (const auto preset = s.text("preset")) {
+    search.preset = *preset;
+    try {
+      search.ga = ga_preset(*preset);
+    } catch (const Error& error) {
+      s.fail("preset", std::string(error.what()).substr(std::string_view("preset ").size()));
+    }
+  }
+  GaSettings& ga = search.ga;
+  take(ga.population, s.whole("population", 2, 1'000'000));
+  take(ga.elitism, s.whole("elitism", 0, 1'000'000));
+  read_initial_length(s, ga);
+  take(ga.mutation, s.number("mutation", 0, 1));
+  take(ga.grow, s.number("grow", 0, 1e6));
+  take(ga.cut, s.number("cut", 0, 1e6));
+  take(ga.alter, s.number("alter", 0, 1e6));
+  take(ga.first, s.choice("first", kSelectionSchemes));
+  take(ga.second, s.choice("second", kSelectionSchemes));
+  take(ga.tournament_size, s.whole("tournament_size", 1, 10'000));
+  take(ga.crossover, s.choice("crossover", kCompatibilities));
+  take(ga.retries, s.whole("retries", 1, 1000));
+  take(ga.replace_probability, s.number("replace_probability", 0, 1));
+  take(ga.reuse_scores, s.boolean("reuse_scores"));
+  s.finish();
+}
+
+void read_limits(const TomlValue& table, const std::string& file, Scene& scene) {
+  TomlSection limits(table, file, "limits");
+  if (const TomlValue* genes = limits.table("genes")) {
+    TomlSection s(*genes, file, "limits.genes");
+    GeneLimits& hard = scene.search.ga.genes;
+    take(hard.min, s.whole("min", 1, 1'000'000));
+    take(hard.max, s.whole("max", 1, 1'000'000));
+    take(scene.genes_from, s.number("from", 0, 1e9));
+    take(scene.genes_to, s.number("to", 0, 1e9));
+    take(scene.genes_weight, s.number("weight", 0, kMostWeight));
+    if (hard.min > hard.max) {
+      s.fail("max", fmt::format("must be at least {}.min = {}, got {}", "limits.genes", hard.min, hard.max));
+    }
+    if (scene.genes_weight > 0 && !(scene.genes_to > scene.genes_from)) {
+      s.fail("to", fmt::format("must be greater than limits.genes.from = {}, got {}", scene.genes_from, scene.genes_to));
+    }
+    s.finish();
+  }
+  limits.finish();
+}
+
+SceneMesh read_mesh(const TomlValue& table, const std::string& file, std::size_t index) {
+  TomlSection s(table, file, fmt::format("volume.mesh.{}", index));
+  SceneMesh mesh;
+  const auto path = s.text("file");
+  if (!path || path->empty()) s.fail("file", "must be the path of a mesh");
+  mesh.file = *path;
+  take(mesh.fill, s.number("fill", -kMostWeight, kMostWeight));
+  mesh.spill = s.number("spill", -kMostWeight, kMostWeight);
+  take(mesh.position, s.vector("position", -kFarthest, kFarthest));
+  take(mesh.scale, s.vector("scale", -kFarthest, kFarthest, true));
+  take(mesh.rotation_deg, s.vector("rotation_deg", -36'000, 36'000));
+  for (int i = 0; i < 3; ++i) {
+    if (mesh.scale[i] == 0) s.fail("scale", "must not be 0");
+  }
+  s.finish();
+  return mesh;
+}
+
+SceneGrid read_grid(const TomlValue& table, const std::string& file) {
+  TomlSection s(table, file, "volume.grid");
+  SceneGrid grid;
+  for (const char* key : {"min", "max", "cells"}) {
+    if (!s.member(key)) s.fail("", fmt::format("must have {}", key));
+  }
+  grid.min = *s.vector("min", -kFarthest, kFarthest);
+  grid.max = *s.vector("max", -kFarthest, kFarthest);
+  const auto cells = *s.wholes("cells", 3, 1, kMostVoxelsPerAxis);
+  for (std::size_t i = 0; i < 3; ++i) grid.cells[i] = static_cast<std::uint32_t>(cells[i]);
+  for (int i = 0; i < 3; ++i) {
+    if (!(grid.min[i] < grid.max[i])) {
+      s.fail("max", fmt::format("must be greater than volume.grid.min along {}, got {} and {}", "xyz"[i], grid.max[i],
+                                grid.min[i]));
+    }
+  }
+  if (cells[0] * cells[1] * cells[2] > kMostVoxels) {
+    s.fail("cells", fmt::format("must multiply to at most {}, got {}", kMostVoxels, cells[0] * cells[1] * cells[2]));
+  }
+  s.finish();
+  return grid;
+}
+
+void read_volume(const TomlValue& table, const std::string& file, SceneVolume& volume) {
+  TomlSection s(table, file, "volume");
+  take(volume.form, s.choice("form", kVolumeForms));
+  take(volume.view, s.choice("view", kVolumeViews));
+  take(volume.overlap, s.choice("overlap", kOverlapCounts));
+  take(volume.overlap_weight, s.number("overlap_weight", 0, kMostWeight));
+  volume.outside_weight = s.number("outside_weight", -kMostWeight, kMostWeight);
+  take(volume.cells, s.whole("cells", 1, kMostVoxels));
+  if (const TomlValue* grid = s.table("grid")) volume.grid = read_grid(*grid, file);
+  const std::vector<TomlValue>* meshes = s.tables("mesh");
+  if (!meshes || meshes->empty()) s.fail("mesh", "must name at least one mesh: [[volume.mesh]] with file = \"...\"");
+  if (meshes->size() > 64) s.fail("mesh", fmt::format("must be at most 64 meshes, got {}", meshes->size()));
+  for (std::size_t i = 0; i < meshes->size(); ++i) volume.meshes.push_back(read_mesh((*meshes)[i], file, i));
+  s.finish();
+}
+
+void read_output(const TomlValue& table, const std::string& file, SceneOutput& output) {
+  TomlSection s(table, file, "output");
+  take(output.keep, s.whole("keep", 0, 99));
+  take(output.distance, s.number("distance", 0, 1));
+  if (const auto size = s.wholes("picture", 2, 16, 8192)) {
+    output.picture = {static_cast<std::uint32_t>((*size)[0]), static_cast<std::uint32_t>((*size)[1])};
+  }
+  s.finish();
+}
+
+// Values as the grammar language writes them after `attr NAME =`.
+void read_attributes(const TomlValue& table, const std::string& file, std::map<std::string, std::string>& attributes) {
+  TomlSection s(table, file, "attributes");
+  for (const auto& [name, value] : table.members) {
+    s.member(name);
+    switch (value.kind) {
+      case TomlValue::Kind::boolean: attributes[name] = value.boolean ? "true" : "false"; break;
+      case TomlValue::Kind::integer: attributes[name] = fmt::format("{}", value.integer); break;
+      case TomlValue::Kind::real: attributes[name] = fmt::format("{}", *s.number(name, -1e30, 1e30)); break;
+      case TomlValue::Kind::text: attributes[name] = value.text; break;
+      default: s.fail(name, "must be a number, true, false or a text, got " + describe(value));
+    }
+  }
+}
+
+void override_attributes(const std::vector<std::string>& overrides, std::map<std::string, std::string>& attributes) {
+  for (const std::string& text : overrides) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) throw Error(fmt::format("-D must be NAME=VALUE, got \"{}\"", text));
+    attributes[text.substr(0, equals)] = text.substr(equals + 1);
+  }
+}
+
+void check_whole(const TomlValue& root, TomlSection& s, const Scene& scene) {
+  if (!scene.budget.seconds && !scene.budget.evaluations && !scene.budget.generations) {
+    s.fail("budget", "must give seconds, evaluations or generations: a search has to end");
+  }
+  try {
+    validate(scene.search.ga);
+  } catch (const Error& error) {
+    const TomlValue* search = root.find("search");
+    throw Error(fmt::format("{}:{}:{}: search.{}", s.file(), search ? search->line : 1, search ? search->column : 1,
+                            error.what()));
+  }
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::string& name, const std::string& folder,
+                  const SceneOverrides& overrides) {
+  if (text.find('\0') != std::string_view::npos) throw Error(fmt::format("{}: must be text, got binary data", name));
+  TomlValue root = parse_toml(text, name);
+  for (const std::string& setting : overrides.settings) apply_setting(root, setting);
+
+  Scene scene;
+  scene.folder = folder;
+  TomlSection s(root, name, "");
+  if (!s.whole("espalier", 1, 1)) s.fail("espalier", "must be 1, the version of the scene format");
+  const auto grammar = s.text("grammar");
+  if (!grammar || grammar->empty()) s.fail("grammar", "must be the path of a grammar");
+  scene.grammar = *grammar;
+  take(scene.seed, s.whole("seed", 0, std::uint64_t{1} << 62));
+  take(scene.threads, s.whole("threads", 0, 1024));
+  if (const TomlValue* t = s.table("attributes")) read_attributes(*t, name, scene.attributes);
+  override_attributes(overrides.attributes, scene.attributes);
+  if (const TomlValue* t = s.table("budget")) read_budget(*t, name, scene.budget);
+  if (const TomlValue* t = s.table("search")) read_search(*t, name, scene.search);
+  if (const TomlValue* t = s.table("limits")) read_limits(*t, name, scene);
+  const TomlValue* volume = s.table("volume");
+  if (!volume) s.fail("volume", "must be given: the meshes that the model shall fill or avoid");
+  read_volume(*volume, name, scene.volume);
+  if (const TomlValue* t = s.table("output")) read_output(*t, name, scene.output);
+  s.finish();
+  check_whole(root, s, scene);
+  return scene;
+}
+
+Scene load_scene(const std::string& path, const SceneOverrides& overrides) {
+  const std::string text = read_file(path, kMostSceneBytes);
+  return parse_scene(text, path, std::filesystem::path(path).parent_path().string(), overrides);
+}
+
+}  // namespace espalier

@@ -1,0 +1,39 @@
+#pragma once
+// The search loop: steps an engine until its budget is spent. The clock only decides whether another step is taken, so
+// what a number of steps finds depends on the setup alone.
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/executor.h"
+#include "run/progress.h"
+#include "run/setup.h"
+#include "search/engine.h"
+
+namespace espalier {
+
+struct SearchControl {
+  SceneBudget budget;
+  std::optional<std::uint64_t> exact_steps;  // take precisely these, whatever the budget: to reproduce
+  const std::atomic<bool>* stop = nullptr;   // set from outside: end after the step that runs
+  RunObserver* observer = nullptr;
+};
+
+struct SearchResult {
+  Individual best;
+  std::vector<Individual> alternatives;  // best first, far from the best and from each other
+  Explanation explanation;               // of the best
+  std::vector<StepReport> log;           // one per step
+  std::vector<NamedCount> diagnostics;
+  std::uint64_t steps = 0, evaluations = 0;
+  double seconds = 0;
+  std::string stopped_by;
+};
+
+/// Empty if `stop` was set before the first step ended. Throws Error for a grammar that does not suit the engine.
+std::optional<SearchResult> run_search(const Setup& setup, const SearchControl& control, Executor& executor);
+
+}  // namespace espalier

@@ -1,0 +1,103 @@
+#include "run/setup.h"
+
+#include <filesystem>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "base/error.h"
+#include "base/math.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string resolve(const Scene& scene, const std::string& path) {
+  return fs::path(path).is_absolute() ? path : (fs::path(scene.folder) / path).string();
+}
+
+Mat3 rotation(int axis, float degrees) {
+  const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+  float s, c;
+  sin_cos(degrees * static_cast<float>(kPi / 180), s, c);
+  Mat3 m(1.0f);
+  m[a][a] = c, m[a][b] = s;  // counter-clockwise seen from the tip of the axis
+  m[b][a] = -s, m[b][b] = c;
+  return m;
+}
+
+std::unique_ptr<VolumeTarget> make_volume_target(const Setup& setup) {
+  const SceneVolume& volume = setup.scene.volume;
+  VolumeSettings settings;
+  for (std::size_t i = 0; i < setup.targets.size(); ++i) {
+    const SceneMesh& mesh = volume.meshes[i];
+    settings.meshes.push_back({fs::path(mesh.file).filename().string(), setup.targets[i], mesh.fill, mesh.spill});
+  }
+  if (volume.grid) {
+    settings.grid.min = volume.grid->min;
+    settings.grid.max = volume.grid->max;
+    for (std::size_t i = 0; i < 3; ++i) settings.grid.cells[i] = volume.grid->cells[i];
+  } else {
+    settings.grid = default_grid(setup.targets, volume.cells);
+  }
+  settings.form = volume.form;
+  settings.view = volume.view;
+  settings.overlap_count = volume.overlap;
+  settings.overlap_weight = volume.overlap_weight;
+  settings.outside_weight = volume.outside_weight;
+  return std::make_unique<VolumeTarget>(std::move(settings), setup.meshes);
+}
+
+void build_objective(Setup& setup) {
+  auto volume = make_volume_target(setup);
+  setup.volume = volume.get();
+  for (const std::string& warning : volume->warnings()) setup.warnings.push_back(warning);
+  setup.objective.add(std::move(volume));
+  const Scene& scene = setup.scene;
+  if (scene.genes_weight > 0) {
+    const GeneLimits& hard = scene.search.ga.genes;
+    const Limit limit = {hard.min, hard.max, scene.genes_from, scene.genes_to, scene.genes_weight};
+    setup.objective.add(std::make_unique<LimitTarget>(limit));
+  }
+}
+
+}  // namespace
+
+Mesh place_mesh(Mesh mesh, const SceneMesh& placing) {
+  const Mat3 turn =
+      rotation(2, placing.rotation_deg.z) * rotation(1, placing.rotation_deg.y) * rotation(0, placing.rotation_deg.x);
+  Mat3 basis = turn;
+  for (int i = 0; i < 3; ++i) basis[i] = turn[i] * placing.scale[i];
+  for (Vec3& p : mesh.positions) p = basis * p + placing.position;
+  for (Vec3& n : mesh.normals) {
+    const Vec3 turned = turn * (n / placing.scale);  // the inverse transpose of turn * scale
+    const float length = glm::length(turned);
+    n = length > 0 ? turned / length : Vec3(0, 1, 0);
+  }
+  if (placing.scale.x * placing.scale.y * placing.scale.z < 0) {
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  }
+  return mesh;
+}
+
+std::unique_ptr<Setup> set_up(const Scene& scene, MeshSource& source) {
+  auto setup = std::make_unique<Setup>();
+  setup->scene = scene;
+  setup->grammar = load_grammar(resolve(scene, scene.grammar), scene.attributes);
+  if (!setup->grammar.warnings.empty()) setup->warnings.push_back(setup->grammar.warnings);
+  setup->meshes = load_meshes(setup->grammar, source);
+  setup->inputs.add_grammar(setup->grammar);
+  setup->scene.grammar = setup->inputs.grammar_name();
+  for (std::size_t i = 0; i < scene.volume.meshes.size(); ++i) {
+    const SceneMesh& mesh = scene.volume.meshes[i];
+    const std::string path = resolve(scene, mesh.file);
+    setup->scene.volume.meshes[i].file = setup->inputs.add_target(path);
+    setup->targets.push_back(place_mesh(source.load(path), mesh));
+  }
+  build_objective(*setup);
+  return setup;
+}
+
+}  // namespace espalier

@@ -1,0 +1,35 @@
+#pragma once
+// Setup: a scene made ready to run: grammar compiled, meshes loaded and placed, objective built, inputs copied.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "run/input_files.h"
+#include "run/scene.h"
+#include "score/combined_objective.h"
+
+namespace espalier {
+
+struct Setup {
+  Scene scene;  // as it lies in the run folder: its paths name the copies
+  LoadedGrammar grammar;
+  MeshTable meshes;
+  std::vector<Mesh> targets;  // in model space, order of scene.volume.meshes
+  Objective objective;
+  const VolumeTarget* volume = nullptr;  // in the objective
+  InputFiles inputs;
+  std::vector<std::string> warnings;
+
+  const GeneratorGraph& graph() const { return *grammar.graph; }
+  /// Whether models are shown, counted and exported with their details.
+  bool full() const { return scene.volume.view == VolumeView::full; }
+};
+
+/// Throws Error. `source` reads the mesh files.
+std::unique_ptr<Setup> set_up(const Scene& scene, MeshSource& source);
+
+/// The mesh in model space: translate * rotate z * rotate y * rotate x * scale; same bits on every machine.
+Mesh place_mesh(Mesh mesh, const SceneMesh& placing);
+
+}  // namespace espalier
