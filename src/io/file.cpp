@@ -114,7 +114,7 @@ StagedFile::StagedFile(const std::string& path, std::string_view bytes) : path_(
   struct stat info {};
   const bool exists = ::stat(target_.c_str(), &info) == 0;
   if (exists && S_ISDIR(info.st_mode)) fail_write(path, EISDIR);
-  if (exists && ::access(target_.c_str(), W_OK) != 0) fail_write(path, errno);
+  if (exists && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0) fail_write(path, errno);
   if (exists && !S_ISREG(info.st_mode)) {
     for_device_ = bytes;
     return;

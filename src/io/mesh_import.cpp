@@ -3,7 +3,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include <assimp/Importer.hpp>
@@ -14,8 +16,10 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "base/check.h"
 #include "base/error.h"
 #include "base/hash.h"
+#include "io/child_process.h"
 #include "io/file.h"
 
 namespace espalier {
@@ -88,7 +92,7 @@ Vec3 unit_or_zero(const Vec3& v) {
 /// Collects the triangles of a scene into one mesh.
 class Flattener {
  public:
-  Flattener(const std::string& path, const ImportLimits& limits) : path_(path), limits_(limits) {}
+  explicit Flattener(const ImportLimits& limits) : limits_(limits) {}
 
   Mesh flatten(const aiScene& scene) {
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) shaded_ |= scene.mMeshes[i]->HasNormals();
@@ -106,8 +110,6 @@ class Flattener {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& why) const { throw Error(fmt::format("{}: {}", path_, why)); }
-
   void add(const aiMesh& source, const Frame& world_from_node) {
     const bool mirrored = glm::determinant(world_from_node.basis) < 0;
     const Mat3 cofactors = glm::mat3(glm::cross(world_from_node.basis[1], world_from_node.basis[2]),
@@ -118,14 +120,14 @@ class Flattener {
       const aiFace& face = source.mFaces[f];
       if (face.mNumIndices != 3) continue;  // points and lines
       if (++triangle_count_ > limits_.most_triangles) {
-        fail(fmt::format("more than {} triangles", limits_.most_triangles));
+        throw Error(fmt::format("more than {} triangles", limits_.most_triangles));
       }
       std::array<Vec3, 3> positions;
       for (unsigned k = 0; k < 3; ++k) {
         if (face.mIndices[k] >= source.mNumVertices) {
-          fail(fmt::format("a face names vertex {} of {}", face.mIndices[k], source.mNumVertices));
+          throw Error(fmt::format("a face names vertex {} of {}", face.mIndices[k], source.mNumVertices));
         }
-        positions[k] = checked(world_from_node.point(to_vec(source.mVertices[face.mIndices[k]])));
+        positions[k] = checked(world_from_node.point(checked(to_vec(source.mVertices[face.mIndices[k]]))));
       }
       const Vec3 across = glm::cross(positions[1] - positions[0], positions[2] - positions[0]);
       const Vec3 flat = unit_or_zero(mirrored ? -across : across);
@@ -150,16 +152,15 @@ class Flattener {
 
   Vec3 checked(const Vec3& p) const {
     for (int axis = 0; axis < 3; ++axis) {
-      if (!std::isfinite(p[axis])) fail(fmt::format("a coordinate is not finite ({})", p[axis]));
-      if (std::abs(p[axis]) > kFarthest) fail(fmt::format("coordinate {} is beyond +-{}", p[axis], kFarthest));
+      if (!std::isfinite(p[axis])) throw Error(fmt::format("a coordinate is not finite ({})", std::abs(p[axis])));
+      if (std::abs(p[axis]) > kFarthest) throw Error(fmt::format("coordinate {} is beyond +-{}", p[axis], kFarthest));
     }
     return p;
   }
 
   Mesh finish() {
-    if (triangles_.empty()) fail("holds no triangles");
+    if (triangles_.empty()) throw Error("holds no triangles");
     Mesh mesh;
-    mesh.name = std::filesystem::path(path_).stem().string();
     mesh.positions.reserve(welder_.vertices().size());
     for (const Vertex& v : welder_.vertices()) {
       mesh.positions.push_back(v.position);
@@ -169,7 +170,6 @@ class Flattener {
     return mesh;
   }
 
-  const std::string& path_;
   const ImportLimits& limits_;
   bool shaded_ = false;  // some part has normals
   Welder welder_;
@@ -178,22 +178,68 @@ class Flattener {
   std::uint64_t triangle_count_ = 0;
 };
 
+/// Runs in the child: assimp trips over some damaged files. Errors do not name the file.
+Mesh import(const std::string& path, const ImportLimits& limits) {
+  Assimp::Importer importer;
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_SortByPType);
+  if (!scene || !scene->mRootNode) throw Error(fmt::format("not a readable mesh: {}", importer.GetErrorString()));
+  return Flattener(limits).flatten(*scene);
+}
+
+template <typename Element>
+void append_bytes(std::string& out, const std::vector<Element>& elements) {
+  const std::uint64_t count = elements.size();
+  out.append(reinterpret_cast<const char*>(&count), sizeof count);
+  out.append(reinterpret_cast<const char*>(elements.data()), count * sizeof(Element));
+}
+
+template <typename Element>
+void take_bytes(std::string_view& in, std::vector<Element>& elements) {
+  std::uint64_t count = 0;
+  CHECK(in.size() >= sizeof count);
+  std::memcpy(&count, in.data(), sizeof count);
+  in.remove_prefix(sizeof count);
+  CHECK(in.size() / sizeof(Element) >= count);
+  elements.resize(count);
+  if (count > 0) std::memcpy(elements.data(), in.data(), count * sizeof(Element));
+  in.remove_prefix(count * sizeof(Element));
+}
+
+/// What the child sends back: the arrays of a mesh.
+std::string packed(const Mesh& mesh) {
+  std::string bytes;
+  append_bytes(bytes, mesh.positions);
+  append_bytes(bytes, mesh.normals);
+  append_bytes(bytes, mesh.triangles);
+  return bytes;
+}
+
+Mesh unpacked(std::string_view bytes) {
+  Mesh mesh;
+  take_bytes(bytes, mesh.positions);
+  take_bytes(bytes, mesh.normals);
+  take_bytes(bytes, mesh.triangles);
+  return mesh;
+}
+
 }  // namespace
 
 Mesh AssimpMeshSource::load(const std::string& path) {
   const std::string bytes = read_file(path, limits_.most_bytes);
-  Assimp::Importer importer;
   const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending.empty() || !importer.IsExtensionSupported(ending)) {
+  if (ending.empty() || !Assimp::Importer().IsExtensionSupported(ending)) {
     throw Error(fmt::format("{}: not a mesh format that can be read; the ending \"{}\" is unknown", path, ending));
   }
   if (bytes.empty()) throw Error(fmt::format("{}: the file is empty", path));
-  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_SortByPType);
-  if (!scene || !scene->mRootNode) {
-    throw Error(fmt::format("{}: not a readable mesh: {}", path, importer.GetErrorString()));
+  const ChildLimits child_limits{.most_memory = (4ull << 30) + 64 * bytes.size()};
+  Mesh mesh;
+  try {
+    mesh = unpacked(run_in_child([&] { return packed(import(path, limits_)); }, child_limits));
+  } catch (const Error& e) {
+    throw Error(fmt::format("{}: {}", path, e.what()));
   }
-  Mesh mesh = Flattener(path, limits_).flatten(*scene);
+  mesh.name = std::filesystem::path(path).stem().string();
   mesh.source_hash = content_hash(bytes);
   return mesh;
 }
