@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/parts.h"
+#include "model/parts.h"
 #include "io/provenance.h"
 
 namespace espalier {

@@ -13,7 +13,7 @@
 #include "base/random.h"
 #include "io/file.h"
 #include "io/glb_container.h"
-#include "io/parts.h"
+#include "model/parts.h"
 #include "test_models.h"
 
 namespace espalier {

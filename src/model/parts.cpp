@@ -1,4 +1,4 @@
-#include "io/parts.h"
+#include "model/parts.h"
 
 #include <bit>
 #include <cmath>
