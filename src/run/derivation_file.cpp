@@ -1,0 +1,98 @@
+#include "run/derivation_file.h"
+
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "base/version.h"
+#include "derivation/encode.h"
+#include "io/file.h"
+#include "run/model_files.h"
+#include "run/sample.h"
+#include "run/scene_scorer.h"
+#include "run/scene_toml.h"
+#include "run/setup.h"
+#include "run/toml_value.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMostDerivationBytes = 1ull << 30;
+
+Derivation load_derivation(const GeneratorGraph& graph, const std::string& path) {
+  try {
+    return decode(graph, read_file(path, kMostDerivationBytes));
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    throw Error(message.starts_with(path) ? message : path + ": " + message);
+  }
+}
+
+std::optional<Provenance> provenance_of(const std::string& path) {
+  try {
+    return read_provenance(path);
+  } catch (const Error&) {
+    return std::nullopt;  // a derivation may come from anywhere
+  }
+}
+
+// Grammar and attributes by the settings that the derivation's provenance holds.
+LoadedGrammar grammar_of(const std::string& path, const Provenance& p) {
+  const std::string folder = (fs::absolute(path).parent_path() / p.settings_folder).lexically_normal().string();
+  const std::string name = path + " (its settings)";
+  if (parse_toml(p.settings, name).find("espalier_sample")) {
+    const SampleRequest request = parse_sample_request(p.settings, name, folder);
+    return load_grammar((fs::path(folder) / request.grammar).string(), request.attributes);
+  }
+  const Scene scene = parse_scene(p.settings, name, folder);
+  return load_grammar((fs::path(folder) / scene.grammar).string(), scene.attributes);
+}
+
+// The original's provenance, seen from where the export lies.
+Provenance export_provenance(const ExportRequest& request, const std::optional<Provenance>& original,
+                             const LoadedGrammar& grammar, const Derivation& derivation) {
+  Provenance p;
+  if (original && request.grammar.empty()) {
+    p = *original;
+    const fs::path folder = fs::weakly_canonical(fs::absolute(request.derivation).parent_path() / p.settings_folder);
+    const fs::path from = fs::weakly_canonical(fs::absolute(request.out).parent_path());
+    p.settings_folder = folder.lexically_relative(from).generic_string();
+  } else {
+    p.inputs[fs::path(grammar.path).filename().string()] = content_hash(grammar.text);
+  }
+  p.version = kVersion;
+  p.made_by = "export";
+  p.derivation = hash_text(derivation);
+  return p;
+}
+
+}  // namespace
+
+Explanation score_derivation(const Scene& scene, const std::string& derivation_path, MeshSource& source) {
+  const std::unique_ptr<Setup> setup = set_up(scene, source);
+  const Derivation derivation = load_derivation(setup->graph(), derivation_path);
+  const std::unique_ptr<Executor> executor = make_serial_executor();
+  return SceneScorer(setup->graph(), setup->objective, *executor).explain(derivation);
+}
+
+void export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor) {
+  const std::optional<Provenance> original = provenance_of(request.derivation);
+  if (request.grammar.empty() && (!original || original->settings.empty())) {
+    read_file(request.derivation, kMostDerivationBytes);  // a missing file is named as such
+    throw Error(fmt::format("{}: does not say which grammar it belongs to; name it with --grammar", request.derivation));
+  }
+  const LoadedGrammar grammar = request.grammar.empty() ? grammar_of(request.derivation, *original)
+                                                        : load_grammar(request.grammar, request.attributes);
+  const Derivation derivation = load_derivation(*grammar.graph, request.derivation);
+  const MeshTable meshes = load_meshes(grammar, source);
+  const std::vector<Mesh> no_ghosts;
+  ModelFiles files(*grammar.graph, meshes, no_ghosts, {1200, 900}, executor);
+  files.write(derivation, request.out, export_provenance(request, original, grammar, derivation));
+}
+
+}  // namespace espalier

@@ -1,0 +1,26 @@
+#pragma once
+// Derivation files: reading one back, scoring it against a scene, and exporting its model.
+
+#include <map>
+#include <string>
+
+#include "base/executor.h"
+#include "model/mesh_source.h"
+#include "run/scene.h"
+#include "score/target.h"
+
+namespace espalier {
+
+/// The score of a derivation file in a scene, taken apart. Throws Error.
+Explanation score_derivation(const Scene& scene, const std::string& derivation_path, MeshSource& source);
+
+struct ExportRequest {
+  std::string derivation;                         // path of a .derivation.json
+  std::string grammar;                            // path; empty: the copy in the folder of its run
+  std::map<std::string, std::string> attributes;  // with `grammar` only
+  std::string out;                                // .glb .obj .ply .stl .png
+};
+/// Writes the model of a derivation. Throws Error.
+void export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor);
+
+}  // namespace espalier

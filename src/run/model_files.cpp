@@ -1,0 +1,44 @@
+#include "run/model_files.h"
+
+#include <fmt/format.h>
+
+#include "base/check.h"
+#include "derivation/encode.h"
+#include "io/export.h"
+#include "io/file.h"
+#include "io/image.h"
+
+namespace espalier {
+
+std::string hash_text(const Derivation& derivation) { return fmt::format("{:016x}", hash(derivation)); }
+
+std::string derivation_document(const GeneratorGraph& graph, const Derivation& derivation,
+                                const Provenance& provenance) {
+  std::string text = encode(graph, derivation);
+  CHECK(text.ends_with('}'));
+  text.pop_back();
+  return text + ",\n \"provenance\": " + to_json(provenance) + "}\n";
+}
+
+ModelFiles::ModelFiles(const GeneratorGraph& graph, const MeshTable& meshes, const std::vector<Mesh>& ghosts,
+                       std::array<std::uint32_t, 2> picture, Executor& executor)
+    : graph_(graph), meshes_(meshes), ghosts_(ghosts), picture_(picture), executor_(executor), expander_(graph) {}
+
+void ModelFiles::write(const Derivation& derivation, const std::string& path, const Provenance& provenance) {
+  if (path.ends_with(".json")) return write_file(path, derivation_document(graph_, derivation, provenance));
+  if (path.ends_with(".png")) {
+    const Picture drawn = picture(derivation, picture_);
+    return write_png(path, drawn.width, drawn.height, drawn.rgb, provenance);
+  }
+  expander_.expand(derivation, ExpandTo::full, model_);
+  export_model(path, model_, meshes_, graph_.materials, provenance);
+}
+
+Picture ModelFiles::picture(const Derivation& derivation, std::array<std::uint32_t, 2> size) {
+  expander_.expand(derivation, ExpandTo::full, model_);
+  RenderSettings settings;
+  settings.width = size[0], settings.height = size[1];
+  return render(model_, meshes_, graph_.materials, ghosts_, settings, executor_);
+}
+
+}  // namespace espalier

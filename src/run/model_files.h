@@ -1,0 +1,43 @@
+#pragma once
+// ModelFiles: the files that show one derivation: its model in any format, its picture, its genes.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/executor.h"
+#include "io/provenance.h"
+#include "model/expand.h"
+#include "render/render.h"
+
+namespace espalier {
+
+class ModelFiles {
+ public:
+  /// All must outlive it. `ghosts`: target meshes shown in pictures; `picture`: width and height.
+  ModelFiles(const GeneratorGraph& graph, const MeshTable& meshes, const std::vector<Mesh>& ghosts,
+             std::array<std::uint32_t, 2> picture, Executor& executor);
+
+  /// By the ending of `path`: .glb .obj .ply .stl with details, .png, .json (the derivation). Throws Error.
+  void write(const Derivation& derivation, const std::string& path, const Provenance& provenance);
+  Picture picture(const Derivation& derivation, std::array<std::uint32_t, 2> size);
+  /// Of the derivation last written or drawn.
+  const Model& model() const { return model_; }
+
+ private:
+  const GeneratorGraph& graph_;
+  const MeshTable& meshes_;
+  const std::vector<Mesh>& ghosts_;
+  std::array<std::uint32_t, 2> picture_;
+  Executor& executor_;
+  Expander expander_;
+  Model model_;
+};
+
+/// encode() with the provenance as a member, ending with a newline.
+std::string derivation_document(const GeneratorGraph& graph, const Derivation& derivation, const Provenance& provenance);
+
+/// 64-bit hash as 16 hex digits: how provenance names a derivation.
+std::string hash_text(const Derivation& derivation);
+
+}  // namespace espalier

@@ -1,0 +1,162 @@
+#include "run/reproduce.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "base/version.h"
+#include "io/file.h"
+#include "io/provenance.h"
+#include "run/results.h"
+#include "run/sample.h"
+#include "run/scene_toml.h"
+#include "run/toml_value.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder that is gone at the end of the scope.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_((fs::temp_directory_path() / "espalier-XXXXXX").string()) {
+    if (!mkdtemp(path_.data())) throw Error(fmt::format("{}: cannot make a temporary folder", path_));
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::string file(const std::string& name) const { return (fs::path(path_) / name).string(); }
+
+ private:
+  std::string path_;
+};
+
+struct Job {
+  std::string path;    // the file
+  std::string folder;  // of the run
+  Provenance provenance;
+};
+
+void check_inputs(const Job& job, ReproduceReport& report) {
+  for (const auto& [name, hash] : job.provenance.inputs) {
+    const std::string path = (fs::path(job.folder) / name).string();
+    if (!fs::exists(path)) {
+      throw Error(fmt::format("{}: its input {} is missing; name the run's folder with --run", job.path, path));
+    }
+    if (content_hash(read_file(path)) == hash) {
+      report.same.push_back(name);
+    } else {
+      report.differences.push_back(fmt::format("input {} has changed since", path));
+    }
+  }
+}
+
+// result.json without its times and the reason to stop, which a replay cannot share.
+std::string without_times(const std::string& text) {
+  std::string kept;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.size(), text.find('\n', at) + 1);
+    const std::string line = text.substr(at, (end == 0 ? text.size() : end) - at);
+    at += line.size();
+    const auto names = {"\"wall_seconds\"", "\"evaluations_per_second\"", "\"stopped_by\""};
+    if (std::none_of(names.begin(), names.end(), [&](const char* n) { return line.starts_with(std::string(" ") + n); })) {
+      kept += line;
+    }
+  }
+  return kept;
+}
+
+// Writes the file again with the set's own writer and compares bytes.
+template <typename Set>
+void compare_file(const Job& job, Set& set, ReproduceReport& report) {
+  const Provenance& p = job.provenance;
+  const std::string filename = fs::path(job.path).filename().string();
+  const TemporaryFolder temporary;
+  const std::string name = p.settings_folder == ".." ? "alternatives/" + filename : filename;
+  const std::vector<std::string> names = set.names();
+  // The .mtl is written with its .obj.
+  const std::string target = fs::path(filename).extension() == ".mtl" ? fs::path(filename).stem().string() + ".obj" : filename;
+  if (p.made_by != "export" && std::find(names.begin(), names.end(), name) != names.end()) {
+    set.write(name, temporary.file(target));
+  } else {
+    set.write_individual(p.index, temporary.file(target), p);
+  }
+  std::string before = read_file(job.path), after = read_file(temporary.file(filename));
+  if (filename == "result.json") before = without_times(before), after = without_times(after);
+  if (before == after) {
+    report.same.push_back(fmt::format("{} bytes of {}", before.size(), filename));
+  } else {
+    const auto [a, b] = std::mismatch(before.begin(), before.end(), after.begin(), after.end());
+    report.differences.push_back(fmt::format("{} differs from byte {} on ({} bytes, made anew {})", filename,
+                                             a - before.begin(), before.size(), after.size()));
+  }
+}
+
+void compare_derivation(const Job& job, const std::string& made, ReproduceReport& report) {
+  if (made == job.provenance.derivation) {
+    report.same.push_back("derivation " + made);
+  } else {
+    report.differences.push_back(fmt::format("the derivation is {}, made anew {}", job.provenance.derivation, made));
+  }
+}
+
+void replay_run(const Job& job, MeshSource& source, Executor& executor, ReproduceReport& report) {
+  const Provenance& p = job.provenance;
+  const Scene scene = parse_scene(p.settings, job.path + " (its settings)", job.folder);
+  const std::unique_ptr<Setup> setup = set_up(scene, source);
+  report.what = fmt::format("run of {}, seed {}, {} steps", setup->graph().name, p.seed, p.steps);
+  SearchControl control;
+  control.exact_steps = p.steps;
+  const std::optional<SearchResult> result = run_search(*setup, control, executor);
+  ResultWriter writer(*setup, *result, executor);
+  if (p.index >= writer.size()) {
+    report.differences.push_back(fmt::format("there is no alternative {}, only {}", p.index, writer.size() - 1));
+    return;
+  }
+  compare_derivation(job, hash_text(writer.individual(p.index).derivation), report);
+  compare_file(job, writer, report);
+}
+
+void replay_sample(const Job& job, MeshSource& source, Executor& executor, ReproduceReport& report) {
+  const Provenance& p = job.provenance;
+  SampleSet samples(parse_sample_request(p.settings, job.path + " (its settings)", job.folder), source, executor);
+  report.what = fmt::format("sample {} with seed {}", p.index + 1, p.seed);
+  if (p.index >= samples.size()) throw Error(fmt::format("{}: its provenance names no sample of its set", job.path));
+  compare_derivation(job, hash_text(samples.derivation(p.index)), report);
+  compare_file(job, samples, report);
+}
+
+}  // namespace
+
+ReproduceReport reproduce(const std::string& path, const std::string& run_folder, MeshSource& source,
+                          Executor& executor) {
+  Job job = {path, run_folder, read_provenance(path)};
+  const Provenance& p = job.provenance;
+  if (p.settings.empty()) {
+    throw Error(fmt::format("{}: holds too little provenance to be made again (an STL file has no room for it, a "
+                            "derivation from elsewhere has none); try another file of its run", path));
+  }
+  if (job.folder.empty()) job.folder = (fs::absolute(path).parent_path() / p.settings_folder).lexically_normal().string();
+  ReproduceReport report;
+  if (p.version != kVersion) {
+    report.notes.push_back(fmt::format("made by version {}, this is {}", p.version, kVersion));
+  }
+  check_inputs(job, report);
+  if (!report.identical()) return report;
+  if (parse_toml(p.settings, path + " (its settings)").find("espalier_sample")) {
+    replay_sample(job, source, executor, report);
+  } else {
+    replay_run(job, source, executor, report);
+  }
+  return report;
+}
+
+}  // namespace espalier

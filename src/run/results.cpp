@@ -1,0 +1,101 @@
+#include "run/results.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "base/check.h"
+#include "base/version.h"
+#include "io/file.h"
+#include "io/image.h"
+#include "run/scene_toml.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string alternative_name(std::size_t index, const char* ending) {
+  return fmt::format("alternatives/{:02}{}", index, ending);
+}
+
+std::string caption(const Individual& individual, std::size_t index, double optimum) {
+  std::string text = index == 0 ? "best" : fmt::format("{}", index);
+  text += fmt::format("  {:.4g}", individual.score);
+  if (optimum > 0) text += fmt::format(" ({:.1f} %)", 100 * individual.score / optimum);
+  return text;
+}
+
+}  // namespace
+
+ResultWriter::ResultWriter(const Setup& setup, const SearchResult& result, Executor& executor)
+    : setup_(setup),
+      result_(result),
+      files_(setup.graph(), setup.meshes, setup.targets, setup.scene.output.picture, executor) {
+  settings_ = fmt::format(
+      "# The settings of a run of Espalier {}, all written out. `espalier run` searches with them anew;\n"
+      "# `espalier reproduce` on a file of this folder replays its steps and compares.\n{}",
+      kVersion, to_toml(setup.scene));
+}
+
+const Individual& ResultWriter::individual(std::size_t index) const {
+  CHECK(index < size());
+  return index == 0 ? result_.best : result_.alternatives[index - 1];
+}
+
+Provenance ResultWriter::provenance(std::size_t index, const std::string& settings_folder) const {
+  Provenance p;
+  p.version = kVersion;
+  p.made_by = "run";
+  p.seed = setup_.scene.seed;
+  p.steps = result_.steps;
+  p.index = index;
+  p.engine = setup_.scene.search.engine;
+  p.inputs = setup_.inputs.hashes();
+  p.settings = settings_;
+  p.settings_folder = settings_folder;
+  p.derivation = hash_text(individual(index).derivation);
+  p.score = individual(index).score;
+  p.optimum = setup_.objective.optimum();
+  return p;
+}
+
+std::vector<std::string> ResultWriter::names() const {
+  std::vector<std::string> names = {"best.derivation.json", "result.json", "convergence.csv", kRunMarker,
+                                    "inputs",               "best.glb",    "best.obj",        "best.png"};
+  for (const char* ending : {".derivation.json", ".glb", ".png"}) {
+    for (std::size_t i = 1; i < size(); ++i) names.push_back(alternative_name(i, ending));
+  }
+  names.push_back("alternatives.png");
+  return names;
+}
+
+void ResultWriter::write(const std::string& name, const std::string& path) {
+  if (name == kRunMarker) return write_file(path, settings_);
+  if (name == "inputs") return setup_.inputs.write(fs::path(path).parent_path().string());
+  if (name == "result.json") return write_result(path);
+  if (name == "convergence.csv") return write_convergence(path);
+  if (name == "alternatives.png") return write_sheet(path);
+  if (name.starts_with("best.")) return write_individual(0, path, provenance(0, "."));
+  CHECK(name.starts_with("alternatives/"));
+  std::error_code ignored;  // a folder that cannot be made shows when the file is written
+  fs::create_directories(fs::path(path).parent_path(), ignored);
+  const std::size_t index = std::stoul(name.substr(name.find('/') + 1));
+  write_individual(index, path, provenance(index, ".."));
+}
+
+void ResultWriter::write_individual(std::size_t index, const std::string& path, const Provenance& provenance) {
+  files_.write(individual(index).derivation, path, provenance);
+}
+
+void ResultWriter::write_sheet(const std::string& path) {
+  std::vector<SheetCell> cells;
+  for (std::size_t i = 0; i < size(); ++i) {
+    cells.push_back(
+        {files_.picture(individual(i).derivation, {400, 300}), caption(individual(i), i, setup_.objective.optimum())});
+  }
+  const Picture sheet = contact_sheet(cells, fmt::format("{}, seed {}", setup_.graph().name, setup_.scene.seed));
+  write_png(path, sheet.width, sheet.height, sheet.rgb, provenance(0, "."));
+}
+
+}  // namespace espalier

@@ -1,0 +1,143 @@
+#include "run/sample.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "base/version.h"
+#include "derivation/sample.h"
+#include "io/file.h"
+#include "io/image.h"
+#include "run/run_folder.h"
+#include "run/toml_section.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t kMostSamples = 1000;
+constexpr const char* kSheet = "samples.png";
+
+}  // namespace
+
+std::string to_toml(const SampleRequest& r) {
+  std::string text = fmt::format("espalier_sample = 1\ngrammar = {}\nseed = {}\ncount = {}\n", quote_toml(r.grammar),
+                                 r.seed, r.count);
+  if (r.grow) text += fmt::format("grow = {}\n", *r.grow);
+  text += fmt::format("picture = [{}, {}]\n", r.picture[0], r.picture[1]);
+  if (!r.attributes.empty()) text += "\n[attributes]\n";
+  for (const auto& [name, value] : r.attributes) text += fmt::format("{} = {}\n", quote_toml(name), quote_toml(value));
+  return text;
+}
+
+SampleRequest parse_sample_request(std::string_view text, const std::string& name, const std::string& folder) {
+  const TomlValue root = parse_toml(text, name);
+  TomlSection s(root, name, "");
+  if (!s.whole("espalier_sample", 1, 1)) s.fail("espalier_sample", "must be 1");
+  SampleRequest r;
+  r.folder = folder;
+  const auto grammar = s.text("grammar");
+  if (!grammar) s.fail("grammar", "must be the path of a grammar");
+  r.grammar = *grammar;
+  r.seed = s.whole("seed", 0, std::uint64_t{1} << 62).value_or(r.seed);
+  r.count = static_cast<std::uint32_t>(s.whole("count", 1, kMostSamples).value_or(r.count));
+  if (const auto grow = s.whole("grow", 0, 1'000'000)) r.grow = static_cast<std::uint32_t>(*grow);
+  if (const auto size = s.wholes("picture", 2, 16, 8192)) {
+    r.picture = {static_cast<std::uint32_t>((*size)[0]), static_cast<std::uint32_t>((*size)[1])};
+  }
+  if (const TomlValue* table = s.table("attributes")) {
+    TomlSection attributes(*table, name, "attributes");
+    for (const auto& [key, value] : table->members) r.attributes[key] = attributes.text(key).value_or("");
+  }
+  s.finish();
+  return r;
+}
+
+SampleSet::SampleSet(const SampleRequest& request, MeshSource& source, Executor& executor) : request_(request) {
+  grammar_ = load_grammar((fs::path(request.folder) / request.grammar).string(), request.attributes);
+  if (!grammar_.warnings.empty()) warnings_.push_back(grammar_.warnings);
+  meshes_ = load_meshes(grammar_, source);
+  inputs_.add_grammar(grammar_);
+  request_.grammar = inputs_.grammar_name();
+  settings_ = fmt::format("# Samples drawn by Espalier {}.\n{}", kVersion, to_toml(request_));
+  draw();
+  files_.emplace(*grammar_.graph, meshes_, no_ghosts_, request_.picture, executor);
+}
+
+void SampleSet::draw() {
+  const GeneratorGraph& graph = *grammar_.graph;
+  std::size_t truncated = 0;
+  for (std::uint32_t i = 0; i < request_.count; ++i) {
+    RandomStream random({request_.seed, Purpose::sample, 0, i, 0});
+    if (request_.grow) {
+      derivations_.push_back(seedling(graph, random));
+      for (std::uint32_t step = 0; step < *request_.grow; ++step) {
+        if (!grow_open_slot(graph, derivations_.back(), random)) break;
+      }
+    } else {
+      SampleResult result = sample(graph, random);
+      truncated += result.truncated;
+      derivations_.push_back(std::move(result.derivation));
+    }
+  }
+  if (truncated > 0) {
+    warnings_.push_back(fmt::format("{} of {} samples reached the budget of genes; the rest of them stays open",
+                                    truncated, request_.count));
+  }
+}
+
+Provenance SampleSet::provenance(std::size_t index) const {
+  Provenance p;
+  p.version = kVersion;
+  p.made_by = "sample";
+  p.seed = request_.seed;
+  p.index = index;
+  p.inputs = inputs_.hashes();
+  p.settings = settings_;
+  p.settings_folder = ".";
+  p.derivation = hash_text(derivations_[index]);
+  return p;
+}
+
+std::vector<std::string> SampleSet::names() const {
+  std::vector<std::string> names = {kSampleMarker, "inputs"};
+  for (const char* ending : {".derivation.json", ".glb", ".png"}) {
+    for (std::size_t i = 0; i < size(); ++i) names.push_back(fmt::format("{:02}{}", i + 1, ending));
+  }
+  names.push_back(kSheet);
+  return names;
+}
+
+void SampleSet::write(const std::string& name, const std::string& path) {
+  if (name == kSampleMarker) return write_file(path, settings_);
+  if (name == "inputs") return inputs_.write(fs::path(path).parent_path().string());
+  if (name == kSheet) return write_sheet(path);
+  const std::size_t index = std::stoul(name) - 1;
+  write_individual(index, path, provenance(index));
+}
+
+void SampleSet::write_individual(std::size_t index, const std::string& path, const Provenance& provenance) {
+  files_->write(derivations_[index], path, provenance);
+}
+
+void SampleSet::write_sheet(const std::string& path) {
+  std::vector<SheetCell> cells;
+  for (std::size_t i = 0; i < size(); ++i) {
+    cells.push_back({files_->picture(derivations_[i], {400, 300}),
+                     fmt::format("{}  {} genes", i + 1, derivations_[i].size())});
+  }
+  const Picture sheet = contact_sheet(cells, fmt::format("{}, seed {}", grammar_.graph->name, request_.seed));
+  write_png(path, sheet.width, sheet.height, sheet.rgb, provenance(0));
+}
+
+std::vector<std::string> write_samples(const SampleRequest& request, const std::string& out, MeshSource& source,
+                                       Executor& executor) {
+  SampleSet samples(request, source, executor);
+  RunFolder folder(out, kSampleMarker);
+  for (const std::string& name : samples.names()) samples.write(name, (fs::path(folder.staging()) / name).string());
+  folder.commit();
+  return samples.warnings();
+}
+
+}  // namespace espalier

@@ -1,0 +1,66 @@
+#pragma once
+// Samples: models drawn from a grammar without any target, to see what it grows.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/executor.h"
+#include "run/input_files.h"
+#include "run/model_files.h"
+
+namespace espalier {
+
+struct SampleRequest {
+  std::string grammar;                            // path, relative to `folder`
+  std::string folder;
+  std::map<std::string, std::string> attributes;  // as the language writes them
+  std::uint32_t count = 16;                       // 1..1000
+  std::uint64_t seed = 1;
+  std::optional<std::uint32_t> grow;              // this many steps of growth from a seedling, in place of the whole prior
+  std::array<std::uint32_t, 2> picture = {800, 600};
+};
+
+inline constexpr const char* kSampleMarker = "samples.toml";
+
+/// The request as TOML ("espalier_sample = 1 ..."), and back; `folder` is not written. Throws Error.
+std::string to_toml(const SampleRequest& request);
+SampleRequest parse_sample_request(std::string_view text, const std::string& name, const std::string& folder);
+
+class SampleSet {
+ public:
+  /// Draws them all. Throws Error.
+  SampleSet(const SampleRequest& request, MeshSource& source, Executor& executor);
+
+  std::size_t size() const { return derivations_.size(); }
+  const Derivation& derivation(std::size_t index) const { return derivations_[index]; }
+  Provenance provenance(std::size_t index) const;
+  std::vector<std::string> names() const;
+  void write(const std::string& name, const std::string& path);
+  void write_individual(std::size_t index, const std::string& path, const Provenance& provenance);
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  void draw();
+  void write_sheet(const std::string& path);
+
+  SampleRequest request_;  // its grammar names the copy
+  LoadedGrammar grammar_;
+  MeshTable meshes_;
+  InputFiles inputs_;
+  std::string settings_;
+  std::vector<Derivation> derivations_;
+  std::vector<std::string> warnings_;
+  std::vector<Mesh> no_ghosts_;
+  std::optional<ModelFiles> files_;
+};
+
+/// Draws and writes into a new folder `out` (see RunFolder); returns the warnings. Throws Error, then nothing is left.
+std::vector<std::string> write_samples(const SampleRequest& request, const std::string& out, MeshSource& source,
+                                       Executor& executor);
+
+}  // namespace espalier
