@@ -1,5 +1,6 @@
 // How long the genetic operations take: copying, crossing over, moves, JSON. Answers are checked before they are timed.
-// Individuals are spaceships (about 2.3 slots and 3.5 draws per gene) and guarded trees, grown to an exact size.
+// Individuals are spaceships and guarded trees, grown gene by gene to an exact size, and corals, sampled from a prior
+// without bounds until they have it: these are bushy and may be large.
 
 #include <cstdlib>
 #include <map>
@@ -80,31 +81,37 @@ GeneratorGraph tree() {
   return graph;
 }
 
-enum Kind : std::int64_t { kShip, kTree };
+/// Three arms at every gene.
+GeneratorGraph coral() {
+  GeneratorGraph graph;
+  graph.name = "coral";
+  graph.edges.resize(1);
+  add_rule(graph, "Foot", 1), add_rule(graph, "Arm", 3);
+  for (int k = 0; k < 3; ++k) add_edge(graph, 0, 1, 0.99), add_edge(graph, 1, 1, 0.6);
+  add_variants(graph);
+  return graph;
+}
+
+enum Kind : std::int64_t { kShip, kTree, kCoral };
 
 const GeneratorGraph& graph_of(std::int64_t kind) {
-  static const GeneratorGraph graphs[] = {spaceship(), tree()};
+  static const GeneratorGraph graphs[] = {spaceship(), tree(), coral()};
   return graphs[kind];
 }
 
-/// An individual of exactly so many genes, grown and cut from the prior as a search would.
+/// An individual of exactly so many genes.
 Derivation individual(std::int64_t kind, std::size_t genes, std::uint32_t number) {
-  RandomStream random({1, Purpose::test, 0, number, static_cast<std::uint32_t>(genes)});
   const GeneratorGraph& graph = graph_of(kind);
-  Derivation d = seedling(graph, random);
-  close_open_slots(graph, d, random);
-  CrossoverSettings settings;
-  Derivation a, b;
-  while (d.size() < genes) {
-    CHECK(grow(graph, d, {}, random));
-    // Growing one by one is quadratic: large ones are crossed from themselves.
-    if (genes > 2000 && crossover(graph, d, d, {}, {}, settings, random, a, b).crossed) {
-      const Derivation& larger = a.size() > b.size() ? a : b;
-      if (larger.size() <= genes) d = larger;
-    }
+  for (std::uint32_t attempt = 0;; ++attempt) {
+    RandomStream random({1, Purpose::test, attempt, number, static_cast<std::uint32_t>(genes)});
+    Derivation d = kind == kCoral ? sample(graph, random, static_cast<std::uint32_t>(genes)).derivation
+                                  : seedling(graph, random);
+    CHECK(close_open_slots(graph, d, random));
+    while (kind != kCoral && d.size() < genes) CHECK(grow(graph, d, {}, random));
+    if (d.size() != genes) continue;
+    CHECK(find_fault(graph, d).empty());
+    return d;
   }
-  CHECK(d.size() == genes && find_fault(graph, d).empty());
-  return d;
 }
 
 using Gene = std::tuple<RuleId, std::uint16_t, std::vector<std::uint32_t>>;
@@ -225,15 +232,19 @@ void sample_prior(benchmark::State& state) {
   state.counters["genes"] = static_cast<double>(genes) / static_cast<double>(state.iterations());
 }
 
-BENCHMARK(copy)->Args({kShip, 500})->Args({kShip, 50000});
-BENCHMARK(crossover_by_edge)->Args({kShip, 500})->Args({kTree, 500})->Args({kShip, 50000});
-BENCHMARK(crossover_by_symbol)->Args({kShip, 500})->Args({kTree, 500})->Args({kShip, 50000});
-BENCHMARK(copy_and_grow)->Args({kShip, 500})->Args({kTree, 500});
-BENCHMARK(copy_and_cut)->Args({kShip, 500})->Args({kTree, 500});
-BENCHMARK(copy_and_alter)->Args({kShip, 500})->Args({kTree, 500});
-BENCHMARK(prior)->Args({kShip, 500})->Args({kTree, 500});
-BENCHMARK(json_encode)->Args({kShip, 50000})->Unit(benchmark::kMillisecond);
-BENCHMARK(json_round_trip)->Args({kShip, 500})->Args({kShip, 50000})->Unit(benchmark::kMillisecond);
+void both_sizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Args({kShip, 500})->Args({kTree, 500})->Args({kCoral, 500})->Args({kCoral, 50000});
+}
+
+BENCHMARK(copy)->Apply(both_sizes);
+BENCHMARK(crossover_by_edge)->Apply(both_sizes);
+BENCHMARK(crossover_by_symbol)->Apply(both_sizes);
+BENCHMARK(copy_and_grow)->Apply(both_sizes);
+BENCHMARK(copy_and_cut)->Apply(both_sizes);
+BENCHMARK(copy_and_alter)->Apply(both_sizes);
+BENCHMARK(prior)->Apply(both_sizes);
+BENCHMARK(json_encode)->Apply(both_sizes)->Unit(benchmark::kMillisecond);
+BENCHMARK(json_round_trip)->Apply(both_sizes)->Unit(benchmark::kMillisecond);
 BENCHMARK(sample_prior)->Arg(kShip)->Arg(kTree);
 
 }  // namespace

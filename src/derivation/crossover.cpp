@@ -44,8 +44,7 @@ class Swapper {
   void swap(Derivation& child1, Derivation& child2) const;
 
  private:
-  std::uint32_t count_matches() const;
-  std::uint32_t find_match(std::uint32_t k) const;
+  std::uint32_t pick_match(RandomStream& random) const;
   void collect_same_edge();
   void collect_same_rule(RandomStream& random);
   void collect_slots(std::uint32_t gene, std::size_t slots, RandomStream& random);
@@ -96,17 +95,20 @@ bool Swapper::pick_giver(RandomStream& random) {
   return true;
 }
 
-std::uint32_t Swapper::count_matches() const {
-  std::uint32_t n = 0;
-  for (const GeneRecord& gene : side2_.parent->genes) n += gene.edge == side1_.edge;
-  return n;
-}
-
-std::uint32_t Swapper::find_match(std::uint32_t k) const {
-  const GeneRecord* gene = side2_.parent->genes.data();
-  for (;; ++gene) {
-    if (gene->edge != side1_.edge) continue;
-    if (k-- == 0) return static_cast<std::uint32_t>(gene - side2_.parent->genes.data());
+/// A gene of parent 2 with the giver's edge, picked uniformly; 0 if there is none.
+std::uint32_t Swapper::pick_match(RandomStream& random) const {
+  const std::vector<GeneRecord>& genes = side2_.parent->genes;
+  // Where matches are common, picking any gene until one matches is much cheaper than a scan, and uniform too.
+  for (std::uint32_t guess = 0; guess < side2_.size() / 32; ++guess) {
+    const std::uint32_t gene = random.below(side2_.size());
+    if (genes[gene].edge == side1_.edge) return gene;
+  }
+  std::uint32_t matches = 0;
+  for (const GeneRecord& gene : genes) matches += gene.edge == side1_.edge;
+  if (matches == 0) return 0;
+  std::uint32_t skip = random.below(matches);
+  for (std::uint32_t gene = 1;; ++gene) {
+    if (genes[gene].edge == side1_.edge && skip-- == 0) return gene;
   }
 }
 
@@ -211,14 +213,12 @@ bool Swapper::pick_target(RandomStream& random) {
     collect_same_edge();
   } else {
     // Nearly always the first pick fits, so no list is made.
-    const std::uint32_t matches = count_matches();
-    if (matches == 0) return false;
-    const std::uint32_t k = random.below(matches);
-    if (compatible({find_match(k)})) return true;
+    const std::uint32_t match = pick_match(random);
+    if (match == 0) return false;
+    if (compatible({match})) return true;
     ++picks;
     collect_same_edge();
-    targets_[k] = targets_.back();
-    targets_.pop_back();
+    std::erase_if(targets_, [&](const Target& target) { return target.gene == match; });
   }
   for (; picks < kMostPicks && !targets_.empty(); ++picks) {
     const std::uint32_t k = random.below(static_cast<std::uint32_t>(targets_.size()));
