@@ -64,6 +64,7 @@ class BodyCompiler {
   Value draw_value(const ast::Stmt& stmt, const NameScope& scope, const std::string& name);
   Operand draw_component(OpCode code, const Operand& x, const Operand& y, const Operand& z, const Operand* high,
                          int component, const std::string& name);
+  Value draw_vector(const Value& low, const Value& high, const std::string& name);
   Value pick(const ast::Expr& call, const NameScope& scope, const std::string& name);
   void register_draw(const Site& site, const std::string& name, int components, DrawShape shape, std::uint32_t values);
   void bind(const ast::Stmt& stmt, const Value& value, NameScope& scope);

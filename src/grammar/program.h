@@ -4,8 +4,8 @@
 // interpreter costs next to nothing over compiled code.
 //
 // Registers are 32-bit floats; a vector takes three in a row. From the front:
-//   0..2  scope size, live          3  depth of the gene        4  childless (0 or 1)
-//   5..   depth(R) per counted rule, then the draws and lets of the start rule, seen everywhere
+//   0..2  scope size, live     3  depth of the gene     4  childless (0 or 1)     5  always 0: what constants read
+//   6..   depth(R) per counted rule, then the draws and lets of the start rule, seen everywhere
 //   local_base..  parameters, draws, lets and temporaries of the program that runs
 
 #include <cstdint>
@@ -18,7 +18,8 @@ using Register = std::uint16_t;
 inline constexpr Register kScopeRegister = 0;
 inline constexpr Register kDepthRegister = 3;
 inline constexpr Register kChildlessRegister = 4;
-inline constexpr Register kFirstDepthOfRegister = 5;
+inline constexpr Register kZeroRegister = 5;
+inline constexpr Register kFirstDepthOfRegister = 6;
 
 struct RegisterLayout {
   Register global_base = kFirstDepthOfRegister;  // first register of the start rule's draws and lets
@@ -38,11 +39,11 @@ enum class Arithmetic : std::uint8_t {
   select, clamp, mix, smooth,
 };
 
-/// coefficient * registers[reg] + bias; the constant bias when coefficient is 0.
+/// coefficient * registers[reg] + bias. A constant has coefficient 0 and reads the zero register.
 struct Operand {
   float coefficient = 0;
   float bias = 0;
-  Register reg = 0;
+  Register reg = kZeroRegister;
 };
 
 enum class OpCode : std::uint8_t {
@@ -69,6 +70,7 @@ enum class OpCode : std::uint8_t {
   detail,  // call site a
   // Draws: quantile a of the gene, or in details the one keyed by b
   draw_uniform,     // dst = x + (y - x) u
+  draw_uniform3,    // dst.. = bias + coefficient * u of x, y, z: three quantiles, constant ranges
   draw_normal,      // mean x, sd y, low z, high in dst
   draw_loguniform,  // x (y / x)^u
   draw_integer,     // x + floor((y - x + 1) u)

@@ -7,8 +7,13 @@ namespace {
 
 bool is_constant(const Operand& o) { return o.coefficient == 0; }
 
-Operand plus(const Operand& a, const Operand& b) { return {a.coefficient + b.coefficient, a.bias + b.bias, a.reg}; }
-Operand times(const Operand& a, float k) { return {a.coefficient * k, a.bias * k, a.reg}; }
+Operand linear(float coefficient, float bias, Register reg) {
+  return {coefficient, bias, coefficient == 0 ? kZeroRegister : reg};
+}
+Operand plus(const Operand& a, const Operand& b) {
+  return linear(a.coefficient + b.coefficient, a.bias + b.bias, a.reg);
+}
+Operand times(const Operand& a, float k) { return linear(a.coefficient * k, a.bias * k, a.reg); }
 
 }  // namespace
 
@@ -70,7 +75,7 @@ Operand ProgramBuilder::binary(Arithmetic code, const Operand& a, const Operand&
       if (is_constant(b)) return times(a, b.bias);
       break;
     case Arithmetic::divide:
-      if (is_constant(b) && b.bias != 0) return {a.coefficient / b.bias, a.bias / b.bias, a.reg};
+      if (is_constant(b) && b.bias != 0) return linear(a.coefficient / b.bias, a.bias / b.bias, a.reg);
       break;
     default: break;
   }

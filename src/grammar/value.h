@@ -28,7 +28,7 @@ struct Value {
   float number() const { return parts[0].bias; }
 };
 
-inline Operand constant_operand(float value) { return {0, value, 0}; }
+inline Operand constant_operand(float value) { return {0, value, kZeroRegister}; }
 inline Operand register_operand(Register reg) { return {1, 0, reg}; }
 
 inline Value number_value(float value, Kind kind = Kind::number) { return {kind, {constant_operand(value)}, {}}; }

@@ -27,26 +27,22 @@ void Expander::expand(const Derivation& derivation, ExpandTo phase, Model& model
   machine.children.reset(stride);
   machine.calls.reset(stride);
 
-  Pending root;
+  float* counts;
+  Pending& root = machine.children.push(counts);
+  root = {};
   root.state.key = scatter(derivation.detail_seed);
-  float* counts = machine.children.push(root);
-  for (std::size_t i = 0; i < graph_->counted_rules.size(); ++i) counts[i] = 0;
+  for (std::size_t i = 0; i < stride; ++i) counts[i] = 0;
 
   // Rules: depth first, the last slot of a gene before its first. The budget thins details, never the tree.
   while (!machine.children.empty()) {
-    const std::size_t last = machine.children.size() - 1;
-    const Pending next = machine.children[last];
-    machine.load_floats(machine.children, last);
+    machine.take(machine.children, machine.children.size() - 1);
     machine.children.pop_back();
-    const GeneRecord& gene = derivation.genes[next.at.gene];
-    const Variant& variant = variant_of(*graph_, gene);
-    machine.run(variant.program, next, &derivation, &variant);
+    machine.run_gene(derivation);
   }
   // Details: first come, first served, so a spent budget thins them evenly.
   for (std::size_t i = 0; i < machine.calls.size() && !model.truncated; ++i) {
-    const Pending next = machine.calls[i];
-    machine.load_floats(machine.calls, i);
-    machine.run(graph_->details[next.program], next, nullptr, nullptr);
+    machine.take(machine.calls, i);
+    machine.run_detail();
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "base/check.h"
 #include "base/hash.h"
@@ -11,16 +12,15 @@
 namespace espalier {
 namespace {
 
-void turn_about_axis(Mat3& m, int axis, float angle) {
-  float s, c;
-  sin_cos(angle, s, c);
-  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
-  const Vec3 u = m[i], v = m[j];
-  m[i] = c * u + s * v;
-  m[j] = c * v - s * u;
+float dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+float length(const Vec3& v) { return std::sqrt(dot(v, v)); }
+Vec3 vec3(const Lanes& v) { return {v[0], v[1], v[2]}; }
+Lanes lanes(const Vec3& v) { return Lanes{v.x, v.y, v.z, 0}; }
 
-/// The rotation about the unit vector `u` whose angle has this sine and cosine (Rodrigues).
+/// Columns of the rotation about the unit vector `u` whose angle has this sine and cosine (Rodrigues).
 Mat3 rotation(const Vec3& u, float s, float c) {
   const float t = 1 - c;
   return Mat3(Vec3(c + t * u.x * u.x, t * u.x * u.y + s * u.z, t * u.x * u.z - s * u.y),
@@ -28,30 +28,69 @@ Mat3 rotation(const Vec3& u, float s, float c) {
               Vec3(t * u.x * u.z + s * u.y, t * u.y * u.z - s * u.x, c + t * u.z * u.z));
 }
 
-float dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-float length(const Vec3& v) { return std::sqrt(dot(v, v)); }
-
-bool finite(const Mat3& m, const Vec3& t) {
-  const float sum = std::fabs(m[0].x) + std::fabs(m[0].y) + std::fabs(m[0].z) + std::fabs(m[1].x) +
-                    std::fabs(m[1].y) + std::fabs(m[1].z) + std::fabs(m[2].x) + std::fabs(m[2].y) +
-                    std::fabs(m[2].z) + std::fabs(t.x) + std::fabs(t.y) + std::fabs(t.z);
-  return sum - sum == 0;
-}
-
 }  // namespace
 
 Machine::Machine(const GeneratorGraph& graph)
     : graph_(graph),
       counted_(static_cast<std::uint32_t>(graph.counted_rules.size())),
-      registers_(graph.registers.count + 4),
-      saved_(graph.registers.save_depth + 1) {}
+      parameters_(graph.registers.parameters),
+      register_file_(graph.registers.count + 4),
+      registers_(register_file_.data()),
+      saved_(graph.registers.save_depth + 1) {
+  std::vector<std::uint32_t> first_of_rule;
+  std::size_t most_slots = 0;
+  for (const Rule& rule : graph.rules) {
+    first_of_rule.push_back(static_cast<std::uint32_t>(codes_.size()));
+    for (const Variant& variant : rule.variants) {
+      codes_.push_back({&variant.program, static_cast<std::uint32_t>(variant.slots.size()),
+                        static_cast<std::uint32_t>(variant.draws.size()), rule.counted ? *rule.counted : -1});
+      most_slots = std::max(most_slots, variant.slots.size());
+    }
+  }
+  for (const Edge& edge : graph.edges) first_code_.push_back(first_of_rule[edge.child]);
+  child_at_.resize(most_slots);
+}
 
-float Machine::quantile(const Op& op, const std::uint32_t* draws) const {
-  const std::uint32_t q = draws ? draws[op.a] : static_cast<std::uint32_t>(key_below(state_.key, op.b) >> 32);
-  return static_cast<float>(q >> 8) * 0x1.0p-24f;
+void Machine::take(const PendingQueue& queue, std::size_t i) {
+  current_ = queue[i];
+  const float* floats = queue.floats(i);
+  for (std::uint32_t k = 0; k < counted_; ++k) registers_[kFirstDepthOfRegister + k] = *floats++;
+  for (std::uint32_t k = 0; k < parameters_; ++k) registers_[graph_.registers.local_base + k] = *floats++;
+  for (int k = 0; k < 3; ++k) registers_[kScopeRegister + k] = current_.state.scope[k];
+  registers_[kDepthRegister] = static_cast<float>(current_.depth);
+}
+
+void Machine::place_children(const Derivation& derivation) {
+  const SlotState* const states = derivation.slots.data() + current_.at.slot;
+  GenePosition next{current_.at.gene + 1, current_.at.slot + code_->slots, current_.at.draw + code_->draws};
+  bool childless = true;
+  for (std::uint32_t i = 0; i < code_->slots; ++i) {
+    if (states[i] != SlotState::filled) continue;
+    childless = false;
+    child_at_[i] = next;
+    const GeneRecord& child = derivation.genes[next.gene];
+    const VariantCode& grown = code_of(child);
+    next.gene += 1 + child.genes_below;
+    next.slot += grown.slots + child.slots_below;
+    next.draw += grown.draws + child.draws_below;
+  }
+  registers_[kChildlessRegister] = childless;
+}
+
+void Machine::run_gene(const Derivation& derivation) {
+  code_ = &code_of(derivation.genes[current_.at.gene]);
+  draws_ = derivation.draws.data() + current_.at.draw;
+  place_children(derivation);
+  run<true>(*code_->program, &derivation);
+}
+
+void Machine::run_detail() { run<false>(graph_.details[current_.program], nullptr); }
+
+template <bool kGene>
+float Machine::quantile(const Op& op, std::uint32_t component) const {
+  const std::uint32_t q = kGene ? draws_[op.a + component]
+                                : static_cast<std::uint32_t>(key_below(current_.state.key, op.b + component) >> 32);
+  return static_cast<float>(static_cast<std::int32_t>(q >> 8)) * 0x1.0p-24f;
 }
 
 float Machine::draw_normal(const Op& op, float u) const {
@@ -63,19 +102,24 @@ float Machine::draw_normal(const Op& op, float u) const {
   return std::min(std::max(drawn, low), high);
 }
 
-void Machine::place_children(const Derivation& derivation, const Pending& context, const Variant& variant) {
-  GenePosition next{context.at.gene + 1, context.at.slot + static_cast<std::uint32_t>(variant.slots.size()),
-                    context.at.draw + static_cast<std::uint32_t>(variant.draws.size())};
-  child_at_.resize(variant.slots.size());
-  for (std::size_t i = 0; i < variant.slots.size(); ++i) {
-    if (derivation.slots[context.at.slot + i] != SlotState::filled) continue;
-    child_at_[i] = next;
-    const GeneRecord& child = derivation.genes[next.gene];
-    const Variant& grown = variant_of(graph_, child);
-    next.gene += 1 + child.genes_below;
-    next.slot += static_cast<std::uint32_t>(grown.slots.size()) + child.slots_below;
-    next.draw += static_cast<std::uint32_t>(grown.draws.size()) + child.draws_below;
-  }
+Vec3 Machine::point(const Lanes& local) const {
+  const State& s = current_.state;
+  return vec3(s.origin + local[0] * s.axis[0] + local[1] * s.axis[1] + local[2] * s.axis[2]);
+}
+
+void Machine::set_scope(int axis, float size) {
+  registers_[kScopeRegister + axis] = size;
+  current_.state.broken |= !(size >= 0);
+}
+
+void Machine::turn_axis(int axis, float angle) {
+  float s, c;
+  sin_cos(angle, s, c);
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  Lanes* const a = current_.state.axis;
+  const Lanes u = a[i], v = a[j];
+  a[i] = c * u + s * v;
+  a[j] = c * v - s * u;
 }
 
 void Machine::turn(const Op& op) {
@@ -84,25 +128,29 @@ void Machine::turn(const Op& op) {
   if (!(size > 0)) return;
   float s, c;
   sin_cos(value(op.x), s, c);
-  state_.frame.basis = state_.frame.basis * rotation(about / size, s, c);
+  const Mat3 r = rotation(about / size, s, c);
+  Lanes* const a = current_.state.axis;
+  const Lanes x = a[0], y = a[1], z = a[2];
+  for (int i = 0; i < 3; ++i) a[i] = r[i].x * x + r[i].y * y + r[i].z * z;
 }
 
 // Turns the local axis, as it stands in model space, by the shortest arc towards a direction (language.md 30).
 void Machine::aim(const Op& op) {
-  const Vec3 wanted = op.flags & kAimAt ? vector_at(op.a) - state_.frame.origin : vector_at(op.a);
-  const Vec3 axis = state_.frame.basis[op.axis];
+  Lanes* const a = current_.state.axis;
+  const Vec3 wanted = op.flags & kAimAt ? vector_at(op.a) - vec3(current_.state.origin) : vector_at(op.a);
+  const Vec3 axis = vec3(a[op.axis]);
   const float size = length(wanted) * length(axis);
   if (!(size > 0)) return;
   const float c = std::min(std::max(dot(axis, wanted) / size, -1.0f), 1.0f);
   Vec3 about = cross(axis, wanted);
   if (length(about) < 1e-6f * size) {
     if (c > 0) return;
-    about = state_.frame.basis[(op.axis + 1) % 3];  // opposite: about the next axis
+    about = vec3(a[(op.axis + 1) % 3]);  // opposite: about the next axis
   }
-  about /= length(about);
   float s, turned;
   sin_cos(value(op.x) * std::acos(c), s, turned);
-  state_.frame.basis = rotation(about, s, turned) * state_.frame.basis;
+  const Mat3 r = rotation(about / length(about), s, turned);
+  for (int i = 0; i < 3; ++i) a[i] = lanes(r * vec3(a[i]));
 }
 
 bool Machine::spend_part() {
@@ -121,109 +169,104 @@ bool Machine::take_turn(float counter) {
   return true;
 }
 
-void Machine::emit(const Op& op, bool rule) {
-  Instance instance;
-  const float x = registers_[0], y = registers_[1], z = registers_[2];
-  const Mat3& basis = state_.frame.basis;
-  instance.model_from_mesh.basis = op.flags & kEmitAsIs ? basis : Mat3(x * basis[0], y * basis[1], z * basis[2]);
-  instance.model_from_mesh.origin = state_.frame.origin;
-  if (state_.broken || !finite(instance.model_from_mesh.basis, instance.model_from_mesh.origin)) {
+void Machine::emit(const Op& op, Layer layer) {
+  const State& s = current_.state;
+  Lanes column[4] = {s.axis[0], s.axis[1], s.axis[2], s.origin};
+  if (!(op.flags & kEmitAsIs))
+    for (int i = 0; i < 3; ++i) column[i] *= registers_[i];
+  // The sum is finite just when all terms are (or so large that they might as well not be).
+  const Lanes sum = (column[0] + column[1]) + (column[2] + column[3]);
+  const Lanes zero = sum - sum;
+  if (s.broken || !(zero[0] + zero[1] + zero[2] == 0)) {
     ++model->dropped;
     return;
   }
   if (!spend_part()) return;
+  Instance& instance = model->instances.emplace_back();
+  static_assert(sizeof(Frame) == 12 * sizeof(float));
+  float packed[16];
+  for (int i = 0; i < 4; ++i) std::memcpy(packed + 3 * i, &column[i], sizeof(Lanes));  // each overwrites a fourth lane
+  std::memcpy(static_cast<void*>(&instance.model_from_mesh), packed, sizeof(Frame));
   instance.top = value(op.y);
   instance.mesh = static_cast<std::uint16_t>(value(op.x));
-  instance.material = static_cast<std::uint16_t>(state_.material);
-  instance.gene = context_->at.gene;
-  instance.layer = !rule ? Layer::detail : op.flags & kEmitProxy ? Layer::proxy : Layer::rule;
-  model->instances.push_back(instance);
+  instance.material = static_cast<std::uint16_t>(s.material);
+  instance.gene = current_.at.gene;
+  instance.layer = layer == Layer::rule && op.flags & kEmitProxy ? Layer::proxy : layer;
 }
 
 void Machine::make_bone(const Op& op) {
-  const Vec3 from = state_.frame.point(vector_at(op.a)), to = state_.frame.point(vector_at(op.b));
-  if (state_.broken || !(length(to - from) < INFINITY)) {
+  const Vec3 from = point(lanes_at(op.a)), to = point(lanes_at(op.b));
+  if (current_.state.broken || !(length(to - from) < INFINITY) || !(length(to) < INFINITY)) {
     ++model->dropped;
     return;
   }
-  model->bones.push_back({from, to, state_.bone, context_->at.gene});
-  state_.bone = static_cast<std::int32_t>(model->bones.size()) - 1;
+  model->bones.push_back({from, to, current_.state.bone, current_.at.gene});
+  current_.state.bone = static_cast<std::int32_t>(model->bones.size()) - 1;
 }
 
 void Machine::call(const Program& program, std::uint16_t call_site) {
   if (!details_wanted || call_site == kNoCall) return;
-  if (state_.broken) {
+  if (current_.state.broken) {
     ++model->dropped;
     return;
   }
   if (!spend_part()) return;
   const CallSite& site = program.calls[call_site];
-  Pending pending{state_, vector_at(kScopeRegister), context_->depth, context_->at, site.detail};
-  pending.state.key = key_below(state_.key, site.site);
-  float* floats = calls.push(pending);
+  float* floats;
+  Pending& pending = calls.push(floats);
+  pending = current_;
+  pending.state.scope = lanes_at(kScopeRegister);
+  pending.state.key = key_below(current_.state.key, site.site);
+  pending.program = site.detail;
   for (std::uint32_t i = 0; i < counted_; ++i) *floats++ = registers_[kFirstDepthOfRegister + i];
   for (const Operand& arg : site.args) *floats++ = value(arg);
 }
 
 void Machine::run_slot(const Program& program, const Op& op, const Derivation& derivation) {
   const SlotCode& code = program.slots[op.dst];
-  switch (derivation.slots[context_->at.slot + op.a]) {
+  switch (derivation.slots[current_.at.slot + op.a]) {
     case SlotState::open: call(program, code.on_open); return;
     case SlotState::empty:
     case SlotState::absent: call(program, code.on_empty); return;
     case SlotState::filled: break;
   }
-  if (state_.broken) {
+  if (current_.state.broken) {
     ++model->dropped;
     return;
   }
-  Pending pending{state_, vector_at(kScopeRegister), context_->depth + 1, child_at_[op.a], 0};
-  if (graph_.uses_details) pending.state.key = key_below(state_.key, op.b);
-  float* floats = children.push(pending);
-  if (counted_ > 0) {
-    const GeneRecord& gene = derivation.genes[context_->at.gene];
-    const auto counted = rule_of(graph_, gene).counted;
-    for (std::uint32_t i = 0; i < counted_; ++i)
-      *floats++ = registers_[kFirstDepthOfRegister + i] + (counted && *counted == i ? 1.0f : 0.0f);
-  }
+  float* floats;
+  Pending& child = children.push(floats);
+  child.state = current_.state;
+  child.state.scope = lanes_at(kScopeRegister);
+  if (graph_.uses_details) child.state.key = key_below(current_.state.key, op.b);
+  child.at = child_at_[op.a];
+  child.depth = current_.depth + 1;
+  for (std::uint32_t i = 0; i < counted_; ++i)
+    *floats++ = registers_[kFirstDepthOfRegister + i] + (code_->counted == static_cast<std::int32_t>(i) ? 1.0f : 0.0f);
   for (const Operand& arg : code.args) *floats++ = value(arg);
 }
 
-void Machine::run(const Program& program, const Pending& context, const Derivation* derivation,
-                  const Variant* variant) {
-  context_ = &context;
-  state_ = context.state;
-  for (int i = 0; i < 3; ++i) registers_[kScopeRegister + i] = context.scope[i];
-  registers_[kDepthRegister] = static_cast<float>(context.depth);
-  const std::uint32_t* draws = nullptr;
-  if (derivation) {
-    place_children(*derivation, context, *variant);
-    draws = derivation->draws.data() + context.at.draw;
-    if (graph_.uses_childless) {
-      bool childless = true;
-      for (std::size_t i = 0; i < variant->slots.size(); ++i)
-        childless &= derivation->slots[context.at.slot + i] != SlotState::filled;
-      registers_[kChildlessRegister] = childless;
-    }
-  }
-
-  Mat3& basis = state_.frame.basis;
-  Vec3& origin = state_.frame.origin;
+// Longer than other functions by design: one place where every operation is told.
+template <bool kGene>
+void Machine::run(const Program& program, const Derivation* derivation) {
+  State& state = current_.state;
   const Op* const ops = program.ops.data();
   for (const Op* next = ops;;) {
     const Op& op = *next++;
     switch (op.code) {
       case OpCode::end: return;
-      case OpCode::move_axis: origin += value(op.x) * basis[op.axis]; break;
-      case OpCode::move: origin += value(op.x) * basis[0] + value(op.y) * basis[1] + value(op.z) * basis[2]; break;
-      case OpCode::turn_axis: turn_about_axis(basis, op.axis, value(op.x)); break;
+      case OpCode::move_axis: state.origin += value(op.x) * state.axis[op.axis]; break;
+      case OpCode::move:
+        state.origin += value(op.x) * state.axis[0] + value(op.y) * state.axis[1] + value(op.z) * state.axis[2];
+        break;
+      case OpCode::turn_axis: turn_axis(op.axis, value(op.x)); break;
       case OpCode::turn: turn(op); break;
       case OpCode::scale:
-        basis[0] *= value(op.x);
-        basis[1] *= value(op.y);
-        basis[2] *= value(op.z);
+        state.axis[0] *= value(op.x);
+        state.axis[1] *= value(op.y);
+        state.axis[2] *= value(op.z);
         break;
-      case OpCode::reflect: basis[op.axis] = -basis[op.axis]; break;
+      case OpCode::reflect: state.axis[op.axis] = -state.axis[op.axis]; break;
       case OpCode::aim: aim(op); break;
       case OpCode::size_axis: set_scope(op.axis, value(op.x)); break;
       case OpCode::size: {
@@ -237,30 +280,39 @@ void Machine::run(const Program& program, const Pending& context, const Derivati
         set_scope(0, registers_[0] * x), set_scope(1, registers_[1] * y), set_scope(2, registers_[2] * z);
         break;
       }
-      case OpCode::save: saved_[op.a] = {state_, vector_at(kScopeRegister)}; break;
-      case OpCode::restore:
-        state_ = saved_[op.a].state;
-        for (int i = 0; i < 3; ++i) registers_[kScopeRegister + i] = saved_[op.a].scope[i];
+      case OpCode::save:
+        state.scope = lanes_at(kScopeRegister);
+        saved_[op.a] = state;
         break;
-      case OpCode::emit: emit(op, derivation != nullptr); break;
+      case OpCode::restore:
+        state = saved_[op.a];
+        for (int i = 0; i < 3; ++i) registers_[kScopeRegister + i] = state.scope[i];
+        break;
+      case OpCode::emit: emit(op, kGene ? Layer::rule : Layer::detail); break;
       case OpCode::bone: make_bone(op); break;
-      case OpCode::paint: state_.material = value(op.x); break;
+      case OpCode::paint: state.material = value(op.x); break;
       case OpCode::slot: run_slot(program, op, *derivation); break;
       case OpCode::detail: call(program, op.a); break;
       case OpCode::draw_uniform: {
         const float low = value(op.x);
-        registers_[op.dst] = low + (value(op.y) - low) * quantile(op, draws);
+        registers_[op.dst] = low + (value(op.y) - low) * quantile<kGene>(op, 0);
         break;
       }
-      case OpCode::draw_normal: registers_[op.dst] = draw_normal(op, quantile(op, draws)); break;
+      case OpCode::draw_uniform3:
+        registers_[op.dst] = op.x.bias + op.x.coefficient * quantile<kGene>(op, 0);
+        registers_[op.dst + 1] = op.y.bias + op.y.coefficient * quantile<kGene>(op, 1);
+        registers_[op.dst + 2] = op.z.bias + op.z.coefficient * quantile<kGene>(op, 2);
+        break;
+      case OpCode::draw_normal: registers_[op.dst] = draw_normal(op, quantile<kGene>(op, 0)); break;
       case OpCode::draw_loguniform: {
         const float low = value(op.x);
-        registers_[op.dst] = low * std::pow(value(op.y) / low, quantile(op, draws));
+        registers_[op.dst] = low * std::pow(value(op.y) / low, quantile<kGene>(op, 0));
         break;
       }
       case OpCode::draw_integer: {
         const float low = value(op.x), high = value(op.y);
-        registers_[op.dst] = std::min(low + std::floor((high - low + 1) * quantile(op, draws)), std::max(low, high));
+        const float drawn = low + std::floor((high - low + 1) * quantile<kGene>(op, 0));
+        registers_[op.dst] = std::min(drawn, std::max(low, high));
         break;
       }
       case OpCode::load: registers_[op.dst] = value(op.x); break;
@@ -274,24 +326,25 @@ void Machine::run(const Program& program, const Pending& context, const Derivati
       case OpCode::ternary:
         registers_[op.dst] = apply_ternary(op.arithmetic, value(op.x), value(op.y), value(op.z));
         break;
-      case OpCode::mix_material:
-        registers_[op.dst] =
-            static_cast<float>(op.a) + std::floor(16 * apply_ternary(Arithmetic::clamp, value(op.x), 0, 1) + 0.5f);
+      case OpCode::mix_material: {
+        const float t = apply_ternary(Arithmetic::clamp, value(op.x), 0, 1);
+        registers_[op.dst] = static_cast<float>(op.a) + std::floor(16 * t + 0.5f);
         break;
+      }
       case OpCode::jump: next = ops + op.b; break;
       case OpCode::jump_if_zero:
         if (value(op.x) == 0) next = ops + op.b;
         break;
       case OpCode::jump_unless_used:
-        if (derivation->slots[context.at.slot + op.a] != SlotState::filled) next = ops + op.b;
+        if (derivation->slots[current_.at.slot + op.a] != SlotState::filled) next = ops + op.b;
         break;
       case OpCode::loop_test:
         if (!(registers_[op.dst] < value(op.x)) || !take_turn(registers_[op.dst])) next = ops + op.b;
         break;
       case OpCode::key:
-        state_.key = key_below(state_.key, static_cast<std::uint64_t>(static_cast<std::int64_t>(value(op.x))));
+        state.key = key_below(state.key, static_cast<std::uint64_t>(static_cast<std::int64_t>(value(op.x))));
         break;
-      case OpCode::reseed: state_.key = scatter(std::bit_cast<std::uint32_t>(value(op.x)) + 0x5eedull); break;
+      case OpCode::reseed: state.key = scatter(std::bit_cast<std::uint32_t>(value(op.x)) + 0x5eedull); break;
     }
   }
 }

@@ -5,72 +5,32 @@
 #include <cstdint>
 #include <vector>
 
-#include "derivation/derivation.h"
 #include "model/model.h"
+#include "model/pending.h"
 
 namespace espalier {
 
-/// What the statements of a block change and its end brings back (language.md 23); the scope size is in the registers.
-struct State {
-  Frame frame;
-  float material = 0;
-  std::int32_t bone = -1;
-  std::uint64_t key = 0;
-  bool broken = false;  // a size was negative or not a number: emits nothing, nor does what stands below
-};
-
-/// A gene or a detail call waiting to be run. Its arguments (counted depths first, then parameters) lie in the arena of
-/// the queue that it waits in.
-struct Pending {
-  State state;
-  Vec3 scope{1};
-  std::uint32_t depth = 0;
-  GenePosition at;          // gene, first slot state, first draw
-  std::uint16_t program = 0;  // details: which
-};
-
-/// Contexts with `stride` floats each.
-class PendingQueue {
- public:
-  void reset(std::uint32_t stride) {
-    stride_ = stride;
-    items_.clear();
-    floats_.clear();
-  }
-  bool empty() const { return items_.empty(); }
-  std::size_t size() const { return items_.size(); }
-  const Pending& operator[](std::size_t i) const { return items_[i]; }
-  const float* floats(std::size_t i) const { return floats_.data() + i * stride_; }
-  /// The floats of the new item, uninitialised.
-  float* push(const Pending& item) {
-    items_.push_back(item);
-    floats_.resize(floats_.size() + stride_);
-    return floats_.data() + floats_.size() - stride_;
-  }
-  void pop_back() {
-    items_.pop_back();
-    floats_.resize(floats_.size() - stride_);
-  }
-
- private:
-  std::uint32_t stride_ = 0;
-  std::vector<Pending> items_;
-  std::vector<float> floats_;
+/// What expansion needs of a (rule, variant), side by side in one array.
+struct VariantCode {
+  const Program* program = nullptr;
+  std::uint32_t slots = 0;
+  std::uint32_t draws = 0;
+  std::int32_t counted = -1;  // index of the rule among the counted ones
 };
 
 class Machine {
  public:
   explicit Machine(const GeneratorGraph& graph);
 
-  /// Copies the counted depths and parameters of item i to their registers; before `run`.
-  void load_floats(const PendingQueue& queue, std::size_t i) {
-    const float* floats = queue.floats(i);
-    for (std::uint32_t k = 0; k < counted_; ++k) registers_[kFirstDepthOfRegister + k] = *floats++;
-    for (std::uint32_t k = 0; k < graph_.registers.parameters; ++k) registers_[graph_.registers.local_base + k] = *floats++;
-  }
+  /// The gene's code; of a valid derivation of the graph.
+  const VariantCode& code_of(const GeneRecord& gene) const { return codes_[first_code_[gene.edge] + gene.variant]; }
 
-  /// Runs `program` in `context`. Rules: `derivation` holds the gene. Details: null, and draws come from the key.
-  void run(const Program& program, const Pending& context, const Derivation* derivation, const Variant* variant);
+  /// Takes over item i of a queue: what it holds is current until the next call, so it may be popped or overwritten.
+  void take(const PendingQueue& queue, std::size_t i);
+  /// Runs the current item as a gene of `derivation`.
+  void run_gene(const Derivation& derivation);
+  /// Runs the current item as a call of a detail.
+  void run_detail();
 
   PendingQueue children;  // last in, first out
   PendingQueue calls;     // first in, first out
@@ -80,40 +40,44 @@ class Machine {
   std::uint32_t turns_left = 0;  // turns of loops, likewise
 
  private:
-  float value(const Operand& o) const {
-    return o.coefficient == 0 ? o.bias : o.coefficient * registers_[o.reg] + o.bias;
+  template <bool kGene>
+  void run(const Program& program, const Derivation* derivation);
+  template <bool kGene>
+  float quantile(const Op& op, std::uint32_t component) const;
+
+  float value(const Operand& o) const { return o.coefficient * registers_[o.reg] + o.bias; }
+  Vec3 vector_at(std::uint32_t reg) const {
+    return {registers_[reg], registers_[reg + 1], registers_[reg + 2]};
   }
-  float quantile(const Op& op, const std::uint32_t* draws) const;
+  Lanes lanes_at(std::uint32_t reg) const {
+    return Lanes{registers_[reg], registers_[reg + 1], registers_[reg + 2], 0};
+  }
+  Vec3 point(const Lanes& local) const;
+  void set_scope(int axis, float size);
   float draw_normal(const Op& op, float u) const;
-  void place_children(const Derivation& derivation, const Pending& context, const Variant& variant);
+  void place_children(const Derivation& derivation);
+  void turn_axis(int axis, float angle);
   void turn(const Op& op);
   void aim(const Op& op);
-  void emit(const Op& op, bool rule);
+  void emit(const Op& op, Layer layer);
   void make_bone(const Op& op);
   void run_slot(const Program& program, const Op& op, const Derivation& derivation);
   void call(const Program& program, std::uint16_t call_site);
   bool spend_part();
   bool take_turn(float counter);
-  Vec3 vector_at(std::uint32_t reg) const {
-    return {registers_[reg], registers_[reg + 1], registers_[reg + 2]};
-  }
-  void set_scope(int axis, float size) {
-    registers_[kScopeRegister + axis] = size;
-    if (!(size >= 0)) state_.broken = true;
-  }
-
-  struct Saved {
-    State state;
-    Vec3 scope;
-  };
 
   const GeneratorGraph& graph_;
-  std::uint32_t counted_;  // number of counted rules
-  std::vector<float> registers_;
-  std::vector<Saved> saved_;
-  State state_;
-  // Of the gene that runs:
-  const Pending* context_ = nullptr;
+  std::uint32_t counted_;     // number of counted rules
+  std::uint32_t parameters_;  // floats of arguments
+  std::vector<std::uint32_t> first_code_;  // per edge
+  std::vector<VariantCode> codes_;
+  std::vector<float> register_file_;
+  float* registers_;
+  std::vector<State> saved_;
+  // Of the item that runs; the scope's size lives in registers 0..2 meanwhile.
+  Pending current_;
+  const std::uint32_t* draws_ = nullptr;
+  const VariantCode* code_ = nullptr;
   std::vector<GenePosition> child_at_;  // per slot of the variant; meaningful where filled
 };
 
