@@ -1,5 +1,5 @@
 #pragma once
-// Parts: what of a model goes into a file, as shared shapes with normals and one entry per instance.
+// Parts: what of a model is drawn or written, as shared shapes with normals and one entry per instance.
 
 #include <cstdint>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace espalier {
 
-/// A mesh as files want it: a unit normal per position, no triangle without area.
+/// A mesh as files and pictures want it: a unit normal per position, no triangle without area.
 struct Shape {
   Mesh mesh;
   Bounds box;

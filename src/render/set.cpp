@@ -1,0 +1,149 @@
+#include "render/set.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace espalier {
+namespace {
+
+constexpr std::size_t kMostGhostCorners = 20'000;  // of a ghost's positions, for a snug frame; its box beyond
+
+/// Flat shapes often come with no length along their flat axis: gives them one, so that the frame can be inverted.
+Mat3 with_depth(Mat3 basis, const Bounds& shape_box) {
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 across = glm::cross(basis[(i + 1) % 3], basis[(i + 2) % 3]);
+    const float length = glm::length(across);
+    if (shape_box.size()[i] == 0 && length > 0) basis[i] = across / std::sqrt(length);
+  }
+  return basis;
+}
+
+bool invertible(const glm::dmat3& m) {
+  const double volume = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
+  return std::abs(glm::determinant(m)) > 1e-7 * volume && volume > 1e-24;
+}
+
+Mat3 cofactors(const glm::dmat3& m) {
+  const glm::dmat3 c(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+  // Only the direction counts; the scale keeps tiny parts' normals representable.
+  const double scale = std::max({glm::length(c[0]), glm::length(c[1]), glm::length(c[2])});
+  const double sign = glm::determinant(m) < 0 ? -1 : 1;
+  return scale > 0 ? Mat3(c * (sign / scale)) : Mat3(1);
+}
+
+class SetBuilder {
+ public:
+  SetBuilder(const Model& model, const MeshTable& table, const std::vector<Mesh>& ghosts, bool full)
+      : parts_(collect_parts(model, table, full)) {
+    for (const Mesh& ghost : ghosts) ghosts_.push_back(with_normals(ghost));
+    measure();
+  }
+
+  Set build(const std::vector<Material>& materials) {
+    set_.materials = materials;
+    std::vector<Placed> opaque, translucent, ghosts;
+    shapes_.resize(parts_.shapes.size());
+    for (const Part& part : parts_.parts) {
+      const Shape& shape = parts_.shapes[part.shape];
+      if (shape.mesh.triangles.empty()) continue;
+      (set_.material(part.material).opacity < 1 ? translucent : opaque).push_back(place(part, shape));
+    }
+    for (Mesh& ghost : ghosts_) {
+      if (ghost.triangles.empty()) continue;
+      for (Vec3& p : ghost.positions) p = unit_point(p);
+      add_corners(ghost);
+      ghosts.push_back({keep(std::move(ghost)), {}, {}, Mat3(1), 0});
+    }
+    set_.opaque = Tracer(std::move(opaque));
+    set_.translucent = Tracer(std::move(translucent));
+    set_.ghosts = Tracer(std::move(ghosts));
+    set_.lowest = 1e30f;
+    for (const Vec3& p : set_.corners) set_.lowest = std::min(set_.lowest, p.y);
+    if (set_.corners.empty()) set_.lowest = 0;
+    return std::move(set_);
+  }
+
+ private:
+  /// The middle and size of all that is shown.
+  void measure() {
+    Bounds all;
+    for (const Part& part : parts_.parts) {
+      for (const Vec3& corner : box_corners(parts_.shapes[part.shape].box)) {
+        all.add(part.model_from_shape.point(corner));
+      }
+    }
+    for (const Mesh& ghost : ghosts_) all.add(bounds(ghost));
+    if (all.empty()) return;
+    centre_ = 0.5 * (glm::dvec3(all.min) + glm::dvec3(all.max));
+    const double radius = 0.5 * glm::length(glm::dvec3(all.max) - glm::dvec3(all.min));
+    scale_ = radius > 0 ? 1 / radius : 1;
+  }
+
+  static std::vector<Vec3> box_corners(const Bounds& b) {
+    if (b.empty()) return {};
+    std::vector<Vec3> out;
+    for (int k = 0; k < 8; ++k) {
+      out.emplace_back(k & 1 ? b.max.x : b.min.x, k & 2 ? b.max.y : b.min.y, k & 4 ? b.max.z : b.min.z);
+    }
+    return out;
+  }
+
+  Vec3 unit_point(const Vec3& p) const { return Vec3((glm::dvec3(p) - centre_) * scale_); }
+
+  Placed place(const Part& part, const Shape& shape) {
+    Placed placed;
+    placed.material = part.material;
+    const Mat3 basis = with_depth(part.model_from_shape.basis, shape.box);
+    const glm::dmat3 unit_basis = glm::dmat3(basis) * scale_;
+    for (const Vec3& corner : box_corners(shape.box)) {
+      set_.corners.push_back(unit_point(part.model_from_shape.point(corner)));
+    }
+    if (!invertible(unit_basis)) {  // squeezed flat: a shape of its own, in place
+      Mesh mesh = baked(shape, part.model_from_shape);
+      for (Vec3& p : mesh.positions) p = unit_point(p);
+      placed.shape = keep(std::move(mesh));
+      placed.normals_from_shape = Mat3(1);
+      return placed;
+    }
+    TriangleSet*& known = shapes_[part.shape];
+    if (!known) known = keep(Mesh(shape.mesh));
+    placed.shape = known;
+    const glm::dvec3 origin = (glm::dvec3(part.model_from_shape.origin) - centre_) * scale_;
+    const glm::dmat3 inverse = glm::inverse(unit_basis);
+    placed.world_from_shape = {Mat3(unit_basis), Vec3(origin)};
+    placed.shape_from_world = {Mat3(inverse), Vec3(-(inverse * origin))};
+    placed.normals_from_shape = cofactors(unit_basis);
+    return placed;
+  }
+
+  TriangleSet* keep(Mesh mesh) {
+    set_.meshes.push_back(std::make_unique<Mesh>(std::move(mesh)));
+    set_.shapes.push_back(std::make_unique<TriangleSet>(*set_.meshes.back()));
+    return set_.shapes.back().get();
+  }
+
+  void add_corners(const Mesh& ghost) {
+    const std::vector<Vec3> corners =
+        ghost.positions.size() > kMostGhostCorners ? box_corners(bounds(ghost)) : ghost.positions;
+    set_.corners.insert(set_.corners.end(), corners.begin(), corners.end());
+  }
+
+  Parts parts_;
+  std::vector<Mesh> ghosts_;
+  std::vector<TriangleSet*> shapes_;  // per shape of parts_, once used
+  glm::dvec3 centre_{0};
+  double scale_ = 1;
+  Set set_;
+};
+
+}  // namespace
+
+Set build_set(const Model& model, const MeshTable& meshes, const std::vector<Material>& materials,
+              const std::vector<Mesh>& ghosts, bool full) {
+  return SetBuilder(model, meshes, ghosts, full).build(materials);
+}
+
+}  // namespace espalier

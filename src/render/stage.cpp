@@ -1,0 +1,43 @@
+#include "render/stage.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+namespace espalier {
+namespace {
+
+Vec3 mix(const Vec3& a, const Vec3& b, float t) { return a + t * (b - a); }
+
+float smooth(float x) {
+  x = std::clamp(x, 0.0f, 1.0f);
+  return x * x * (3 - 2 * x);
+}
+
+}  // namespace
+
+Stage make_stage(float ground_y, const Camera& camera) {
+  // Over the left shoulder and well above: 50 degrees aside, 50 up.
+  const Vec3 back = glm::normalize(Vec3(-camera.forward.x, 0, -camera.forward.z));
+  return {ground_y, glm::normalize(0.55f * back - 0.62f * camera.right + Vec3(0, 1.0f, 0))};
+}
+
+Vec3 backdrop(float x, float y) {
+  const float away = 0.42f * x * x + 0.5f * (y + 0.15f) * (y + 0.15f);
+  const Vec3 middle(0.93f, 0.93f, 0.925f), rim(0.56f, 0.575f, 0.60f);
+  return mix(middle, rim, smooth(away));
+}
+
+Vec3 sky(const Vec3& direction) {
+  const Vec3 zenith(0.62f, 0.66f, 0.72f), horizon(0.42f, 0.43f, 0.44f), ground(0.34f, 0.33f, 0.32f);
+  return direction.y > 0 ? mix(horizon, zenith, smooth(direction.y)) : mix(horizon, ground, smooth(-3 * direction.y));
+}
+
+Vec3 key_radiance() { return {0.98f, 0.93f, 0.85f}; }
+
+Vec3 ground_light(float key, float open) {
+  const Vec3 from_key(0.50f, 0.48f, 0.45f), from_sky(0.50f, 0.52f, 0.55f);
+  return key * from_key + open * from_sky;
+}
+
+}  // namespace espalier

@@ -1,0 +1,31 @@
+#pragma once
+// Stage: what stands around the model. A light backdrop, a ground that only shows shadows, a large soft key light over
+// the camera's left shoulder, and a sky that is brighter above.
+
+#include "base/vec.h"
+#include "render/camera.h"
+
+namespace espalier {
+
+struct Stage {
+  float ground_y = 0;
+  Vec3 to_key{0, 1, 0};  // unit
+};
+
+inline constexpr float kKeySpread = 0.10f;  // tangent of the key light's half angle
+
+/// Key light for a camera: it moves with it, so that every view is lit alike.
+Stage make_stage(float ground_y, const Camera& camera);
+
+/// Linear light of the backdrop at picture point (x, y) in [-1, 1].
+Vec3 backdrop(float x, float y);
+
+/// Radiance that arrives from a direction, key light left out; below the horizon that of the ground.
+Vec3 sky(const Vec3& direction);
+
+Vec3 key_radiance();
+
+/// Share of light left on the ground where the key is seen by `key` and the sky by `open` (0..1).
+Vec3 ground_light(float key, float open);
+
+}  // namespace espalier
