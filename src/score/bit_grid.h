@@ -2,10 +2,29 @@
 // BitGrid: one bit per voxel of a grid, in tiles that a SIMD register holds: 8 rows in y by 32 voxels in z.
 // words[((y / 8) * depth + z / 32) * nx + x][y % 8], bit z % 32; depth = ceil(nz / 32). Padding bits are 0.
 
+#include <cstddef>
 #include <cstdint>
+#include <new>
 #include <vector>
 
 namespace espalier {
+
+/// Memory that starts on a cache line, so that no tile straddles two.
+template <class T>
+struct TileAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t kLine{64};
+
+  TileAllocator() = default;
+  template <class U>
+  TileAllocator(const TileAllocator<U>&) {}  // NOLINT: allocators convert
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), kLine)); }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, kLine); }
+  bool operator==(const TileAllocator&) const { return true; }
+};
+
+template <class T>
+using TileVector = std::vector<T, TileAllocator<T>>;
 
 class BitGrid {
  public:
@@ -39,7 +58,7 @@ class BitGrid {
 
  private:
   std::uint32_t nx_ = 0, ny_ = 0, nz_ = 0, depth_ = 0;
-  std::vector<std::uint32_t> words_;
+  TileVector<std::uint32_t> words_;
 };
 
 /// a |= b, bit by bit; both of one size.

@@ -13,6 +13,7 @@
 #include "model/model.h"
 #include "score/target.h"
 #include "score/volume_counts.h"
+#include "score/volume_view.h"
 #include "score/voxel_grid.h"
 
 namespace espalier {
@@ -28,7 +29,6 @@ enum class VolumeForm : std::uint8_t {
 };
 /// What `overlap` means: voxels covered twice or more, each once; or hits beyond the first (hits - covered).
 enum class OverlapCount : std::uint8_t { voxels, hits };
-enum class VolumeView : std::uint8_t { parts, full };
 
 struct VolumeMesh {
   std::string name;            // for people

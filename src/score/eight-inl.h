@@ -1,0 +1,138 @@
+// Eight lanes on every machine: one AVX2 register, two of 128 bits, or eight numbers one by one. All paths give the
+// same bytes: no fused multiply-add, no approximations, shifts by 32 and more give 0. Included once per target.
+
+#if defined(ESPALIER_SCORE_EIGHT_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ESPALIER_SCORE_EIGHT_INL_H
+#undef ESPALIER_SCORE_EIGHT_INL_H
+#else
+#define ESPALIER_SCORE_EIGHT_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstddef>
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace espalier {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatTag = hn::CappedTag<float, 8>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+using WordTag = hn::RebindToUnsigned<FloatTag>;
+inline constexpr std::size_t kStep = hn::MaxLanes(FloatTag());
+inline constexpr std::size_t kBlocks = 8 / kStep;
+
+template <class Tag>
+struct Eight {
+  using Lane = hn::TFromD<Tag>;
+  hn::Vec<Tag> block[kBlocks];
+
+  static HWY_INLINE Eight all(Lane value) {
+    Eight r;
+    for (std::size_t i = 0; i < kBlocks; ++i) r.block[i] = hn::Set(Tag(), value);
+    return r;
+  }
+  /// Aligned to 32 bytes.
+  static HWY_INLINE Eight load(const Lane* from) {
+    Eight r;
+    for (std::size_t i = 0; i < kBlocks; ++i) r.block[i] = hn::Load(Tag(), from + i * kStep);
+    return r;
+  }
+  HWY_INLINE void store(Lane* to) const {
+    for (std::size_t i = 0; i < kBlocks; ++i) hn::Store(block[i], Tag(), to + i * kStep);
+  }
+};
+using F8 = Eight<FloatTag>;
+using I8 = Eight<IntTag>;
+using U8 = Eight<WordTag>;
+
+#define ESPALIER_EIGHT_BINARY(name, call)                                                        \
+  template <class Tag>                                                                           \
+  HWY_INLINE Eight<Tag> name(const Eight<Tag>& a, const Eight<Tag>& b) {                         \
+    Eight<Tag> r;                                                                                \
+    for (std::size_t i = 0; i < kBlocks; ++i) r.block[i] = hn::call(a.block[i], b.block[i]);     \
+    return r;                                                                                    \
+  }
+ESPALIER_EIGHT_BINARY(operator+, Add)
+ESPALIER_EIGHT_BINARY(operator-, Sub)
+ESPALIER_EIGHT_BINARY(operator*, Mul)
+ESPALIER_EIGHT_BINARY(operator|, Or)
+ESPALIER_EIGHT_BINARY(operator&, And)
+ESPALIER_EIGHT_BINARY(operator^, Xor)
+ESPALIER_EIGHT_BINARY(smaller, Min)
+ESPALIER_EIGHT_BINARY(larger, Max)
+#undef ESPALIER_EIGHT_BINARY
+
+HWY_INLINE F8 square_root(const F8& a) {
+  F8 r;
+  for (std::size_t i = 0; i < kBlocks; ++i) r.block[i] = hn::Sqrt(a.block[i]);
+  return r;
+}
+
+/// a where `test` >= 0, else b.
+HWY_INLINE F8 where_not_negative(const F8& test, const F8& a, const F8& b) {
+  F8 r;
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+    r.block[i] = hn::IfThenElse(hn::Ge(test.block[i], hn::Zero(FloatTag())), a.block[i], b.block[i]);
+  }
+  return r;
+}
+
+/// Towards zero. Beyond the range of int the result is one fixed value per target, the same for equal inputs.
+HWY_INLINE I8 truncate(const F8& a) {
+  I8 r;
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+#if HWY_TARGET == HWY_AVX2
+    r.block[i] = hn::Vec<IntTag>{_mm256_cvttps_epi32(a.block[i].raw)};
+#elif HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
+    r.block[i] = hn::Vec<IntTag>{_mm_cvttps_epi32(a.block[i].raw)};
+#else
+    r.block[i] = hn::ConvertTo(IntTag(), a.block[i]);
+#endif
+  }
+  return r;
+}
+
+/// The lowest 32 - n bits of each lane, for n >= 0; none from 32 on.
+HWY_INLINE U8 low_bits_but(const I8& n) {
+  U8 r;
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+    const auto count = hn::BitCast(WordTag(), n.block[i]);
+    const auto ones = hn::Set(WordTag(), ~0u);
+#if HWY_TARGET == HWY_AVX2
+    r.block[i] = hn::Shr(ones, count);
+#else
+    const auto most = hn::BitCast(WordTag(), hn::Min(n.block[i], hn::Set(IntTag(), 31)));
+    const auto fits = hn::MaskFromVec(hn::BitCast(WordTag(), hn::VecFromMask(
+        IntTag(), hn::Lt(n.block[i], hn::Set(IntTag(), 32)))));
+    static_cast<void>(count);
+    r.block[i] = hn::IfThenElseZero(fits, hn::Shr(ones, most));
+#endif
+  }
+  return r;
+}
+
+/// 0, 1, .. 7 plus `first`.
+HWY_INLINE F8 lanes_from(float first) {
+  F8 r;
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+    r.block[i] = hn::Iota(FloatTag(), first + static_cast<float>(i * kStep));
+  }
+  return r;
+}
+
+HWY_INLINE std::uint64_t sum_of(const I8& a) {
+  alignas(32) std::int32_t lane[8];
+  a.store(lane);
+  std::uint64_t sum = 0;
+  for (const std::int32_t v : lane) sum += static_cast<std::uint64_t>(std::int64_t{v});
+  return sum;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace espalier
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target
