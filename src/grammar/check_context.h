@@ -12,6 +12,23 @@
 
 namespace espalier {
 
+/// One alternative of a `choose` in a rule whose loops are unrolled, inside another one or none.
+struct ChosenCase {
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::size_t outer = kNone;  // index into CheckContext::chosen
+  const ast::Stmt* choose = nullptr;
+  std::size_t alternative = 0;
+  std::map<std::string, StaticValue, std::less<>> loops{};  // variables of the loops around it
+};
+
+/// A `spawn` of the text, with how often it stands in one alternative of its rule.
+struct SpawnTerm {
+  const ast::Stmt* spawn = nullptr;
+  std::size_t child = 0;  // declaration
+  std::size_t chosen = ChosenCase::kNone;
+  double copies = 0;
+};
+
 struct CheckContext {
   CheckedGrammar& checked;
   Diagnostics& diagnostics;
@@ -44,6 +61,10 @@ struct CheckContext {
   };
   std::vector<Hiding> hidings{};
 
+  /// Rules, like checked.ast.decls: what they spawn.
+  std::vector<std::vector<SpawnTerm>> spawns{};
+  std::vector<ChosenCase> chosen{};
+
   const std::vector<ast::Decl>& decls() const { return checked.ast.decls; }
   const ast::Decl* start() const { return checked.find(checked.start, ast::DeclKind::rule); }
   /// Index of a declaration of this tree.
@@ -68,7 +89,7 @@ void check_kinds(CheckContext& context);
 void evaluate_values(CheckContext& context);
 /// What may stand where: rules, details, conditions, lists.
 void check_structure(CheckContext& context);
-/// Values of static expressions, and how large rules become once their loops are unrolled.
+/// Values of static expressions, and how large rules become once their loops are unrolled. Fills spawns and chosen.
 void check_unrolled(CheckContext& context);
 /// Whether derivations end, and how large they are expected to be.
 void check_growth(CheckContext& context);

@@ -117,6 +117,8 @@ void NameChecker::declare(std::string_view name, LocalSort sort, const SourceSpa
   const bool global = in_start() && nesting_ == 0 && (sort == LocalSort::draw || sort == LocalSort::let);
   if (const Decl* decl = context_.checked.find(name))
     refuse(fmt::format("the {} of that name", word_of(decl->kind)), fmt::format("it stands on line {}", decl->name_span.line));
+  else if (!global && context_.globals.contains(name) && in_start())
+    refuse("the draw or let of that name at the top of the start rule", "those are seen everywhere");
   else if (!global && context_.globals.contains(name))
     context_.hidings.push_back({name, span});
   if (global) return;
