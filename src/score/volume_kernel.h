@@ -30,6 +30,7 @@ class VolumeScratch final : public TargetScratch {
   ConvexShape shape;
   SpanForm form;
   FacetScan scan;
+  VolumeCounts counts;
 };
 
 class VolumeKernel {

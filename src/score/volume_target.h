@@ -86,7 +86,14 @@ class VolumeTarget final : public Target {
 
  private:
   struct Parts;
+  /// Calls term(name, of which mesh or nullptr, weight, count, of, factor) in a fixed order; a term is worth
+  /// weight * factor.
+  template <class Sink>
+  void each_term(const VolumeCounts& counts, const Sink& term) const;
+
   std::unique_ptr<const Parts> parts_;
+  double spill_ = 0;   // sum of the spill weights
+  double wanted_ = 0;  // T
   double optimum_ = 0;
 };
 

@@ -1,0 +1,67 @@
+#include "score/combined_objective.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/check.h"
+#include "base/error.h"
+
+namespace espalier {
+
+Objective::Scratch::Scratch(const Objective& objective) {
+  for (const Entry& entry : objective.targets_) targets_.push_back(entry.target->make_scratch());
+}
+
+void Objective::add(std::unique_ptr<const Target> target, double weight) {
+  CHECK(target != nullptr);
+  if (!std::isfinite(weight) || weight < 0) {
+    throw Error(fmt::format("target {}: weight must be finite and >= 0, got {}", target->name(), weight));
+  }
+  targets_.push_back({std::move(target), weight});
+}
+
+TargetView Objective::view() const {
+  TargetView view = TargetView::genes;
+  for (const Entry& entry : targets_) view = std::max(view, entry.target->view());
+  return view;
+}
+
+double Objective::score(const Derivation& derivation, const Model& model, Scratch& scratch) const {
+  DCHECK(scratch.targets_.size() == targets_.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < targets_.size(); ++i) {
+    sum += targets_[i].weight * targets_[i].target->score(derivation, model, scratch.targets_[i].get());
+  }
+  return sum;
+}
+
+double Objective::optimum() const {
+  double sum = 0;
+  for (const Entry& entry : targets_) sum += entry.weight * entry.target->optimum();
+  return sum;
+}
+
+Explanation Objective::explain(const Derivation& derivation, const Model& model, Scratch& scratch) const {
+  CHECK(scratch.targets_.size() == targets_.size());
+  Explanation all;
+  all.optimum = optimum();
+  for (std::size_t i = 0; i < targets_.size(); ++i) {
+    Explanation one = targets_[i].target->explain(derivation, model, scratch.targets_[i].get());
+    one.weight = targets_[i].weight;
+    all.score += one.weight * one.score;
+    for (Term term : one.terms) {
+      term.weight *= one.weight;
+      term.value *= one.weight;
+      all.terms.push_back(std::move(term));
+    }
+    if (!all.words.empty() && !one.words.empty()) all.words += "; ";
+    all.words += one.words;
+    all.targets.push_back(std::move(one));
+  }
+  all.percent = percent_of(all.score, all.optimum);
+  return all;
+}
+
+}  // namespace espalier
