@@ -1,7 +1,7 @@
 #pragma once
 // Sampling: where in a pixel, on a light and over a hemisphere the samples of a pixel go. Additive recurrences in the
-// generalised golden ratio (Roberts 2018), shifted per pixel by a hash: any first few of them are evenly spread, and
-// all is integer arithmetic until the last step.
+// generalised golden ratio (Roberts 2018): any few in a row are evenly spread. Pixels count on along the Morton curve, so
+// that neighbours complement each other and smoothing over them leaves little noise. Integers until the last step.
 
 #include <cmath>
 #include <cstdint>
@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "base/hash.h"
 #include "base/math.h"
 #include "base/vec.h"
 
@@ -19,22 +18,30 @@ using Vec2 = glm::vec2;
 
 class PixelSamples {
  public:
-  PixelSamples(std::uint32_t x, std::uint32_t y) : key_(std::uint64_t{y} << 32 | x) {}
+  PixelSamples(std::uint32_t x, std::uint32_t y) : first_(kPerPixel * (spread(x) | spread(y) << 1)) {}
 
-  Vec2 in_pixel(std::uint32_t s) const { return pair(s, 0, 0xc13fa9aau, 0x91e10da6u); }
-  Vec2 on_light(std::uint32_t s) const { return pair(s, 1, 0xdb4f0b91u, 0xbbe05635u); }
-  Vec2 over_hemisphere(std::uint32_t s) const { return pair(s, 2, 0xa0f2ec76u, 0x89e18286u); }
-  Vec2 in_lobe(std::uint32_t s) const { return pair(s, 3, 0x89e18286u, 0xdb4f0b91u); }
+  Vec2 in_pixel(std::uint32_t s) const { return pair(s, 0xc13fa9aau, 0x91e10da6u); }
+  Vec2 on_light(std::uint32_t s) const { return pair(first_ + s, 0xdb4f0b91u, 0xbbe05635u); }
+  Vec2 over_hemisphere(std::uint32_t s) const { return pair(first_ + s, 0xa0f2ec76u, 0x89e18286u); }
+  Vec2 in_lobe(std::uint32_t s) const { return pair(first_ + s, 0x91e10da6u, 0xa0f2ec76u); }
 
  private:
-  Vec2 pair(std::uint32_t s, std::uint64_t purpose, std::uint32_t step_u, std::uint32_t step_v) const {
-    const std::uint64_t shift = scatter(key_ * 4 + purpose + 1);
-    return {unit(static_cast<std::uint32_t>(shift) + s * step_u),
-            unit(static_cast<std::uint32_t>(shift >> 32) + s * step_v)};
+  static constexpr std::uint32_t kPerPixel = 4;
+
+  static Vec2 pair(std::uint32_t n, std::uint32_t step_u, std::uint32_t step_v) {
+    return {unit(0x80000000u + n * step_u), unit(0x80000000u + n * step_v)};
   }
   static float unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+  /// The low 16 bits, a zero after each.
+  static std::uint32_t spread(std::uint32_t x) {
+    x &= 0xffff;
+    x = (x | x << 8) & 0x00ff00ff;
+    x = (x | x << 4) & 0x0f0f0f0f;
+    x = (x | x << 2) & 0x33333333;
+    return (x | x << 1) & 0x55555555;
+  }
 
-  std::uint64_t key_;
+  std::uint32_t first_;
 };
 
 /// Uniform on the unit disc for u uniform on the unit square; neighbours stay neighbours (Shirley and Chiu 1997).

@@ -65,17 +65,18 @@ void shade_surface(const Set& set, const Stage& stage, const Tracer& tracer, con
   out.position = eye + hit.t * direction;
   out.normal = smooth;
   const Light light = gather(set, stage, out.position, flat, smooth, samples, s);
-  out.albedo = (1 - metal) * m.color;
-  out.light = light.diffuse;
-  const Vec3 facing_colour = Vec3(0.04f * (1 - metal)) + metal * m.color;
-  const Vec3 to_eye = -direction;
+  const Vec3 to_eye = -direction, facing_colour = Vec3(0.04f * (1 - metal)) + metal * m.color;
   if (light.key > 0) out.extra += key_radiance() * highlight(smooth, to_eye, stage.to_key, roughness, facing_colour);
-  // The surroundings mirrored: sharper for smooth surfaces, brighter at grazing angles.
+  // The surroundings mirrored: sharper for smooth surfaces, brighter at grazing angles. What metals mirror is noisy and
+  // has their colour, so it counts as light.
   const float n_v = std::max(glm::dot(smooth, to_eye), 0.0f), m1 = 1 - n_v, m5 = m1 * m1 * m1 * m1 * m1;
-  const Vec3 fresnel = facing_colour + (Vec3(1 - roughness) * (Vec3(1) - facing_colour)) * m5;
-  const Vec3 mirrored = in_cone(2 * n_v * smooth - to_eye, 0.02f + 0.8f * roughness, samples.in_lobe(s));
-  const bool dark = (metal > 0.05f || roughness < 0.35f) && set.opaque.blocks({out.position + kOffset * flat, mirrored, 0}, kSkyReach);
-  out.extra += fresnel * sky(mirrored) * (dark ? 0.3f : 1.3f);
+  const Vec3 mirrored = in_cone(2 * n_v * smooth - to_eye, 0.02f + 0.7f * roughness, samples.in_lobe(s));
+  const bool dark = metal > 0.05f && set.opaque.blocks({out.position + kOffset * flat, mirrored, 0}, kSkyReach);
+  const Vec3 reflection = (dark ? 0.35f : 1.0f) * studio(mirrored, stage.to_key);
+  out.albedo = m.color;
+  out.light = (1 - metal) * light.diffuse + metal * reflection;
+  const float sheen = (1 - metal) * (0.04f + (1 - roughness) * m5) + metal * 0.5f * m5;
+  out.extra += sheen * (0.4f + 0.6f * light.open) * reflection;
   // A faint rim from above and behind parts dark shapes from dark neighbours.
   out.extra += Vec3(0.10f * m1 * m1 * m1 * (0.6f + 0.4f * smooth.y) * light.open) * (Vec3(0.3f) + m.color);
   out.extra += std::min(m.glow, 4.0f) * m.color;

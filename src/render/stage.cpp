@@ -24,16 +24,22 @@ Stage make_stage(float ground_y, const Camera& camera) {
 
 Vec3 backdrop(float x, float y) {
   const float away = 0.42f * x * x + 0.5f * (y + 0.15f) * (y + 0.15f);
-  const Vec3 middle(0.93f, 0.93f, 0.925f), rim(0.56f, 0.575f, 0.60f);
+  const Vec3 middle(0.80f, 0.80f, 0.795f), rim(0.43f, 0.44f, 0.46f);
   return mix(middle, rim, smooth(away));
 }
 
 Vec3 sky(const Vec3& direction) {
-  const Vec3 zenith(0.62f, 0.66f, 0.72f), horizon(0.42f, 0.43f, 0.44f), ground(0.34f, 0.33f, 0.32f);
+  const Vec3 zenith(0.50f, 0.54f, 0.60f), horizon(0.33f, 0.345f, 0.36f), ground(0.27f, 0.265f, 0.26f);
   return direction.y > 0 ? mix(horizon, zenith, smooth(direction.y)) : mix(horizon, ground, smooth(-3 * direction.y));
 }
 
-Vec3 key_radiance() { return {0.98f, 0.93f, 0.85f}; }
+Vec3 studio(const Vec3& direction, const Vec3& to_key) {
+  const float box = smooth((glm::dot(direction, to_key) - 0.55f) / 0.3f);
+  const float strip = smooth(1 - std::abs(direction.y - 0.25f) / 0.2f);  // a lit wall all around
+  return 1.1f * sky(direction) + Vec3(0.9f * box + 0.45f * strip);
+}
+
+Vec3 key_radiance() { return {0.94f, 0.89f, 0.82f}; }
 
 Vec3 ground_light(float key, float open) {
   const Vec3 from_key(0.50f, 0.48f, 0.45f), from_sky(0.50f, 0.52f, 0.55f);

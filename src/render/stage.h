@@ -23,6 +23,9 @@ Vec3 backdrop(float x, float y);
 /// Radiance that arrives from a direction, key light left out; below the horizon that of the ground.
 Vec3 sky(const Vec3& direction);
 
+/// What surfaces mirror: the sky, a soft box where the key light is, a lit wall.
+Vec3 studio(const Vec3& direction, const Vec3& to_key);
+
 Vec3 key_radiance();
 
 /// Share of light left on the ground where the key is seen by `key` and the sky by `open` (0..1).
