@@ -81,6 +81,9 @@ Explanation score_derivation(const Scene& scene, const std::string& derivation_p
 }
 
 void export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor) {
+  if (request.out.ends_with(".json") || request.out.ends_with(".png")) {
+    throw Error(fmt::format("{}: export writes .glb, .obj, .ply or .stl", request.out));
+  }
   const std::optional<Provenance> original = provenance_of(request.derivation);
   if (request.grammar.empty() && (!original || original->settings.empty())) {
     read_file(request.derivation, kMostDerivationBytes);  // a missing file is named as such

@@ -18,7 +18,7 @@ struct ExportRequest {
   std::string derivation;                         // path of a .derivation.json
   std::string grammar;                            // path; empty: the copy in the folder of its run
   std::map<std::string, std::string> attributes;  // with `grammar` only
-  std::string out;                                // .glb .obj .ply .stl .png
+  std::string out;                                // .glb .obj .ply .stl
 };
 /// Writes the model of a derivation. Throws Error.
 void export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor);

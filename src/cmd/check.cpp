@@ -1,0 +1,57 @@
+// espalier check: what is wrong with a grammar.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cmd/attributes.h"
+#include "cmd/verbs.h"
+#include "grammar/compiler.h"
+#include "io/file.h"
+#include "io/mesh_import.h"
+#include "run/grammar_file.h"
+
+namespace espalier {
+namespace {
+
+void print_json(const std::string& file, const Diagnostics& diagnostics) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Diagnostic& d : diagnostics.items()) {
+    list.push_back({{"severity", d.severity == Severity::error ? "error" : "warning"},
+                    {"code", d.code},
+                    {"message", d.message},
+                    {"line", d.span.line},
+                    {"column", d.span.column},
+                    {"offset", d.span.offset},
+                    {"length", d.span.length},
+                    {"help", d.help}});
+  }
+  const nlohmann::ordered_json document = {
+      {"file", file}, {"errors", diagnostics.error_count()}, {"diagnostics", list}};
+  fmt::print("{}\n", document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+void print_summary(const std::string& file, const GeneratorGraph& graph) {
+  std::size_t draws = 0, variants = 0;
+  for (const Rule& rule : graph.rules) draws += rule.draws.size(), variants += rule.variants.size();
+  fmt::print("{}: {} is well-formed: {} rules with {} variants, {} edges, {} draws, {} details, {} meshes\n", file,
+             graph.name, graph.rules.size(), variants, graph.edges.size() - 1, draws, graph.details.size(),
+             graph.meshes.size());
+}
+
+}  // namespace
+
+int check_verb(const CheckOptions& options) {
+  const std::string text = read_file(options.file, kMostGrammarBytes);
+  const CompileResult result = compile_grammar({options.file, text, parse_attributes(options.attributes)});
+  if (options.json) {
+    print_json(options.file, result.diagnostics);
+  } else if (!result.diagnostics.items().empty()) {
+    fmt::print("{}", render(result.diagnostics, options.file, text));
+  }
+  if (!result.graph) return kBadInput;
+  AssimpMeshSource source;
+  load_meshes({options.file, text, result.graph, {}}, source);
+  if (!options.json) print_summary(options.file, *result.graph);
+  return kDone;
+}
+
+}  // namespace espalier

@@ -1,0 +1,20 @@
+// espalier export: a derivation's model in another format.
+#include <fmt/format.h>
+
+#include "cmd/attributes.h"
+#include "cmd/verbs.h"
+#include "io/mesh_import.h"
+#include "run/derivation_file.h"
+
+namespace espalier {
+
+int export_verb(const ExportVerbOptions& options) {
+  AssimpMeshSource source;
+  const std::unique_ptr<Executor> executor = make_serial_executor();
+  export_derivation({options.derivation, options.grammar, parse_attributes(options.attributes), options.out}, source,
+                    *executor);
+  fmt::print("wrote {}\n", options.out);
+  return kDone;
+}
+
+}  // namespace espalier

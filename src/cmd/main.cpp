@@ -1,0 +1,160 @@
+// espalier: the command line. Declares the options of every verb, fills its struct, calls it.
+#include <csignal>
+#include <functional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "cmd/verbs.h"
+
+namespace espalier {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  espalier check grammars/spaceship.esp
+  espalier sample grammars/spaceship.esp -n 16 --seed 3 --out out/ships
+  espalier run scenes/spaceship.toml --time 10 --out out/ship
+  espalier run scenes/spaceship.toml --evaluations 20000 --set search.population=200
+  espalier score out/ship/run.toml out/ship/best.derivation.json
+  espalier reproduce out/ship/best.glb
+  espalier export out/ship/best.derivation.json -o ship.stl
+
+Exit codes: 0 done, 1 a comparison failed or there is no result, 2 bad input.)";
+
+/// All verbs' options, and which verb was asked for.
+struct CommandLine {
+  CheckOptions check;
+  SampleOptions sample;
+  RunVerbOptions run;
+  ScoreOptions score;
+  InspectOptions inspect;
+  ReproduceOptions reproduce;
+  ExportVerbOptions export_;
+  std::function<int()> verb;
+};
+
+void declare_attributes(CLI::App* verb, std::vector<std::string>& attributes) {
+  verb->add_option("-D", attributes, "Set an attribute of the grammar: -D name=value (repeatable)")->expected(1)
+      ->take_all();
+}
+
+void declare_settings(CLI::App* verb, std::vector<std::string>& settings) {
+  verb->add_option("--set", settings, "Change a setting of the scene: --set volume.cells=500000 (repeatable)")
+      ->expected(1)->take_all();
+}
+
+void declare_threads(CLI::App* verb, int& threads) {
+  verb->add_option("--threads", threads, "Threads to use; 0 = one per core. Results do not depend on it")
+      ->check(CLI::Range(0, 1024));
+}
+
+void declare_check(CLI::App& app, CommandLine& line) {
+  CLI::App* verb = app.add_subcommand("check", "Say what is wrong with a grammar");
+  CheckOptions& o = line.check;
+  verb->add_option("grammar", o.file, "Grammar file (.esp)")->required();
+  declare_attributes(verb, o.attributes);
+  verb->add_flag("--json", o.json, "Diagnostics as JSON");
+  verb->callback([&line] { line.verb = [&line] { return check_verb(line.check); }; });
+}
+
+void declare_sample(CLI::App& app, CommandLine& line) {
+  CLI::App* verb = app.add_subcommand("sample", "Draw models from a grammar, without any target");
+  SampleOptions& o = line.sample;
+  verb->add_option("grammar", o.grammar, "Grammar file (.esp)")->required();
+  verb->add_option("-n,--count", o.count, "How many, 1 to 1000 (16)")->check(CLI::Range(1, 1000));
+  verb->add_option("--seed", o.seed, "Seed (1)")->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
+  verb->add_option("--grow", o.grow, "Only this many steps of growth from the start")->check(CLI::Range(0, 1'000'000));
+  declare_attributes(verb, o.attributes);
+  declare_threads(verb, o.threads);
+  verb->add_option("--out", o.out, "Folder to write (out/NAME-samples)");
+  verb->callback([&line] { line.verb = [&line] { return sample_verb(line.sample); }; });
+}
+
+void declare_run(CLI::App& app, CommandLine& line) {
+  CLI::App* verb = app.add_subcommand("run", "Search a scene until its budget is spent, or Ctrl-C");
+  RunVerbOptions& o = line.run;
+  verb->add_option("scene", o.scene, "Scene file (.toml)")->required();
+  verb->add_option("--engine", o.engine, "Search engine");
+  verb->add_option("--seed", o.seed, "Seed")->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
+  verb->add_option("--time", o.seconds, "Stop after this many seconds (replaces the scene's budget)");
+  verb->add_option("--evaluations", o.evaluations, "Stop after this many evaluations (replaces the scene's budget)");
+  verb->add_option("--generations", o.generations, "Stop after this many steps (replaces the scene's budget)");
+  verb->add_option("--threads", o.threads, "Threads to use; 0 = one per core. Results do not depend on it")
+      ->check(CLI::Range(0, 1024));
+  declare_settings(verb, o.settings);
+  declare_attributes(verb, o.attributes);
+  verb->add_option("--keep", o.keep, "Alternatives to keep beside the best");
+  verb->add_option("--out", o.out, "Folder to write (out/NAME); an earlier run there is replaced");
+  verb->add_flag("--json", o.json, "Events as JSON lines");
+  verb->callback([&line] { line.verb = [&line] { return run_verb(line.run); }; });
+}
+
+void declare_score(CLI::App& app, CommandLine& line) {
+  CLI::App* verb = app.add_subcommand("score", "Score a derivation in a scene and take the score apart");
+  ScoreOptions& o = line.score;
+  verb->add_option("scene", o.scene, "Scene file, or the run.toml of a run")->required();
+  verb->add_option("derivation", o.derivation, "A .derivation.json")->required();
+  declare_settings(verb, o.settings);
+  declare_attributes(verb, o.attributes);
+  verb->add_flag("--json", o.json, "As JSON");
+  verb->callback([&line] { line.verb = [&line] { return score_verb(line.score); }; });
+}
+
+void declare_file_verbs(CLI::App& app, CommandLine& line) {
+  CLI::App* inspect = app.add_subcommand("inspect", "Show where a file came from: seed, settings, inputs, score");
+  inspect->add_option("file", line.inspect.file, "Any model, picture or JSON that espalier wrote")->required();
+  inspect->add_flag("--json", line.inspect.json, "As JSON");
+  inspect->callback([&line] { line.verb = [&line] { return inspect_verb(line.inspect); }; });
+
+  CLI::App* reproduce = app.add_subcommand("reproduce", "Make a file anew from its own record, and compare");
+  reproduce->add_option("file", line.reproduce.file, "Any model, picture or JSON that espalier wrote")->required();
+  reproduce->add_option("--run", line.reproduce.run_folder, "Folder of its run, if the file was moved");
+  declare_threads(reproduce, line.reproduce.threads);
+  reproduce->callback([&line] { line.verb = [&line] { return reproduce_verb(line.reproduce); }; });
+
+  CLI::App* exporting = app.add_subcommand("export", "Write a derivation's model in another format");
+  ExportVerbOptions& o = line.export_;
+  exporting->add_option("derivation", o.derivation, "A .derivation.json")->required();
+  exporting->add_option("--grammar", o.grammar, "Its grammar, if it is not in a run's folder");
+  declare_attributes(exporting, o.attributes);
+  exporting->add_option("-o,--out", o.out, "File to write: .glb .obj .ply .stl")->required();
+  exporting->callback([&line] { line.verb = [&line] { return export_verb(line.export_); }; });
+}
+
+int main_verb(int argc, char** argv) {
+  CLI::App app("Espalier: grammars that grow towards what you want.", "espalier");
+  app.set_version_flag("--version", fmt::format("espalier {}", kVersion));
+  app.footer(kExamples);
+  app.require_subcommand(1);
+  CommandLine line;
+  declare_check(app, line);
+  declare_sample(app, line);
+  declare_run(app, line);
+  declare_score(app, line);
+  declare_file_verbs(app, line);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kBadInput;
+  }
+  return line.verb();
+}
+
+}  // namespace
+}  // namespace espalier
+
+int main(int argc, char** argv) {
+  // A full disk or a closed pipe is an error to be told, not a death.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    return espalier::main_verb(argc, argv);
+  } catch (const espalier::Error& error) {
+    fmt::print(stderr, "espalier: {}\n", error.what());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "espalier: out of memory\n");
+  }
+  return espalier::kBadInput;
+}

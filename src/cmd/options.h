@@ -1,0 +1,62 @@
+#pragma once
+// What the command line asks for: one plain struct per verb, filled by main.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+struct CheckOptions {
+  std::string file;
+  std::vector<std::string> attributes;  // "name=value"
+  bool json = false;
+};
+
+struct SampleOptions {
+  std::string grammar;
+  std::uint32_t count = 16;
+  std::uint64_t seed = 1;
+  std::optional<std::uint32_t> grow;
+  std::vector<std::string> attributes;
+  std::string out;  // empty: out/NAME-samples
+  int threads = 0;
+};
+
+struct RunVerbOptions {
+  std::string scene;
+  std::optional<std::string> engine;
+  std::optional<std::uint64_t> seed;
+  std::optional<double> seconds;
+  std::optional<std::uint64_t> evaluations, generations;
+  std::optional<int> threads;
+  std::optional<std::uint32_t> keep;
+  std::vector<std::string> settings, attributes;
+  std::string out;  // empty: out/NAME
+  bool json = false;
+};
+
+struct ScoreOptions {
+  std::string scene, derivation;
+  std::vector<std::string> settings, attributes;
+  bool json = false;
+};
+
+struct InspectOptions {
+  std::string file;
+  bool json = false;
+};
+
+struct ReproduceOptions {
+  std::string file;
+  std::string run_folder;  // empty: where the file says
+  int threads = 0;
+};
+
+struct ExportVerbOptions {
+  std::string derivation, grammar, out;
+  std::vector<std::string> attributes;
+};
+
+}  // namespace espalier

@@ -1,0 +1,33 @@
+// espalier sample: models drawn from a grammar.
+#include "run/sample.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "cmd/attributes.h"
+#include "cmd/verbs.h"
+#include "io/mesh_import.h"
+
+namespace espalier {
+
+int sample_verb(const SampleOptions& options) {
+  namespace fs = std::filesystem;
+  SampleRequest request;
+  request.grammar = options.grammar;
+  request.attributes = parse_attributes(options.attributes);
+  request.count = options.count;
+  request.seed = options.seed;
+  request.grow = options.grow;
+  std::string out = options.out;
+  if (out.empty()) out = (fs::path("out") / (fs::path(options.grammar).stem().string() + "-samples")).string();
+  AssimpMeshSource source;
+  const std::unique_ptr<Executor> executor = make_tbb_executor(options.threads);
+  for (const std::string& warning : write_samples(request, out, source, *executor)) {
+    fmt::print(stderr, "warning: {}\n", warning);
+  }
+  fmt::print("wrote {} samples to {}\nwrote {}\n", options.count, out, (fs::path(out) / "samples.png").string());
+  return kDone;
+}
+
+}  // namespace espalier

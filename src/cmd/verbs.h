@@ -1,0 +1,21 @@
+#pragma once
+// The verbs of the program: each does what its options ask, prints, and returns the exit code: 0 done, 1 a comparison
+// failed or there is no result, 2 bad input (also by throwing Error).
+
+#include "cmd/options.h"
+
+namespace espalier {
+
+inline constexpr int kDone = 0;
+inline constexpr int kDiffers = 1;
+inline constexpr int kBadInput = 2;
+
+int check_verb(const CheckOptions& options);
+int sample_verb(const SampleOptions& options);
+int run_verb(const RunVerbOptions& options);
+int score_verb(const ScoreOptions& options);
+int inspect_verb(const InspectOptions& options);
+int reproduce_verb(const ReproduceOptions& options);
+int export_verb(const ExportVerbOptions& options);
+
+}  // namespace espalier

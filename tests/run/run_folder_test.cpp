@@ -1,0 +1,104 @@
+#include "run/run_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "run/fixtures.h"
+
+namespace espalier {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::read_text;
+using testing::TemporaryFolder;
+using testing::write_text;
+
+namespace fs = std::filesystem;
+
+std::size_t entries(const std::string& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+std::string error_of(const std::string& path) {
+  try {
+    RunFolder folder(path, "run.toml");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(RunFolder, AppearsOnCommitAlone) {
+  const TemporaryFolder temporary;
+  {
+    RunFolder folder(temporary / "deep/out/", "run.toml");
+    write_text(folder.staging() + "/run.toml", "x");
+    EXPECT_FALSE(fs::exists(temporary / "deep/out"));
+    folder.commit();
+  }
+  EXPECT_EQ(read_text(temporary / "deep/out/run.toml"), "x");
+  EXPECT_EQ(entries(temporary / "deep"), 1u);
+}
+
+TEST(RunFolder, WithoutCommitLeavesNothing) {
+  const TemporaryFolder temporary;
+  {
+    RunFolder folder(temporary / "out", "run.toml");
+    write_text(folder.staging() + "/sub/file", "x");
+  }
+  EXPECT_EQ(entries(temporary.path()), 0u);
+}
+
+TEST(RunFolder, KeptItStaysUnderItsOwnName) {
+  const TemporaryFolder temporary;
+  std::string staging;
+  {
+    RunFolder folder(temporary / "out", "run.toml");
+    write_text(folder.staging() + "/file", "x");
+    folder.keep();
+    staging = folder.staging();
+  }
+  EXPECT_FALSE(fs::exists(temporary / "out"));
+  EXPECT_EQ(read_text(staging + "/file"), "x");
+}
+
+TEST(RunFolder, ReplacesAnEarlierOneWhole) {
+  const TemporaryFolder temporary;
+  write_text(temporary / "out/run.toml", "old");
+  write_text(temporary / "out/extra", "old");
+  RunFolder folder(temporary / "out", "run.toml");
+  write_text(folder.staging() + "/run.toml", "new");
+  EXPECT_EQ(read_text(temporary / "out/run.toml"), "old");
+  folder.commit();
+  EXPECT_EQ(read_text(temporary / "out/run.toml"), "new");
+  EXPECT_FALSE(fs::exists(temporary / "out/extra"));
+  EXPECT_EQ(entries(temporary.path()), 1u);
+}
+
+TEST(RunFolder, TakesAnEmptyFolder) {
+  const TemporaryFolder temporary;
+  fs::create_directory(temporary / "out");
+  RunFolder folder(temporary / "out", "run.toml");
+  folder.commit();
+  EXPECT_TRUE(fs::is_directory(temporary / "out"));
+  EXPECT_EQ(entries(temporary.path()), 1u);
+}
+
+TEST(RunFolder, NeverTakesWhatIsNotOurs) {
+  const TemporaryFolder temporary;
+  write_text(temporary / "photos/a.png", "dear");
+  write_text(temporary / "file", "dear");
+  EXPECT_THAT(error_of(temporary / "photos"), HasSubstr("holds other files"));
+  EXPECT_THAT(error_of(temporary / "file"), HasSubstr("is no folder"));
+  EXPECT_THAT(error_of(temporary / "file/out"), HasSubstr("cannot make"));
+  EXPECT_THAT(error_of("/proc/espalier/out"), HasSubstr("cannot make"));
+  EXPECT_THAT(error_of(""), HasSubstr("must name a folder"));
+  EXPECT_THAT(error_of("/"), HasSubstr("folder of its own"));
+  EXPECT_THAT(error_of("."), HasSubstr("folder of its own"));
+  EXPECT_EQ(read_text(temporary / "photos/a.png"), "dear");
+  EXPECT_EQ(entries(temporary.path()), 2u);
+}
+
+}  // namespace
+}  // namespace espalier
