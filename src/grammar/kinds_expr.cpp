@@ -51,7 +51,7 @@ KindChecker::MaybeKind KindChecker::common_kind(const std::vector<Expr*>& exprs,
     if (!kind) continue;
     if (allowed.size() > 0 && std::find(allowed.begin(), allowed.end(), *kind) == allowed.end()) {
       std::string list;
-      for (const Kind k : allowed) list += fmt::format("{}{}s", list.empty() ? "" : " or ", name_of(k));
+      for (const Kind k : allowed) list += fmt::format("{}{}{}", list.empty() ? "" : " or ", name_of(k), k == Kind::mesh ? "es" : "s");
       mismatch(*expr, fmt::format("{} takes {}, not {}", what, list, phrase_of(*kind)), *allowed.begin(), kind);
       return std::nullopt;
     }

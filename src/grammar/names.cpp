@@ -33,10 +33,10 @@ void NameChecker::body(const Decl& decl) {
   decl_ = &decl;
   globals_defined_ = in_start() ? 0 : context_.globals.size();
   nesting_ = 0;
+  parameters(decl);
   if (decl.guard)
     read(*decl.guard, {kConstants | kAttributes | kDepth, "a guard",
                        "guards read only constants, attrs and depth, so that validity never depends on a draw"});
-  parameters(decl);
   statements(decl.body);
   for (const ast::Param& param : decl.params) close(param.name);
 }

@@ -100,7 +100,8 @@ ast::Grammar Parser::file() {
 
 void Parser::header(ast::Grammar& grammar) {
   expect("grammar", "NAME 1 as the first line");
-  const Token name = expect_name("the name of the grammar");
+  if (peek().kind != TokenKind::word) fail("the name of the grammar");
+  const Token name = take();
   grammar.name = name.text;
   grammar.name_span = name.span;
   const SourceSpan version_span = peek().span;
@@ -198,9 +199,8 @@ bool Parser::at_declaration() const {
   return peek().kind == TokenKind::word && std::find(words.begin(), words.end(), peek().text) != words.end();
 }
 
+/// `detail` begins statements too; as a declaration it is taken to stand at the beginning of its line.
 void Parser::skip_to_declaration() {
-  // Not `detail` and `mesh`-like words inside braces: only a word at the outermost brace level, or one that begins a
-  // line, starts a declaration.
   while (!at_end() && !(at_declaration() && (!at("detail") || peek().span.column == 1))) take();
 }
 

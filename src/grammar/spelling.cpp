@@ -39,7 +39,8 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
   constexpr std::size_t kLongestWord = 64;
   constexpr std::size_t kMostCandidates = 4096;
   if (word.empty() || word.size() > kLongestWord) return {};
-  int best = kStep * std::max<int>(1, static_cast<int>(word.size()) / 3) + 1;
+  // One or two letters resemble too much: there only case may differ.
+  int best = word.size() < 3 ? kStep : kStep * std::max<int>(1, static_cast<int>(word.size()) / 3) + 1;
   std::string_view nearest;
   for (const std::string_view candidate : candidates.first(std::min(candidates.size(), kMostCandidates))) {
     if (candidate.size() > kLongestWord) continue;
