@@ -212,13 +212,14 @@ bool Swapper::pick_target(RandomStream& random) {
   } else if (!side2_.locks.free()) {
     collect_same_edge();
   } else {
-    // Nearly always the first pick fits, so no list is made.
-    const std::uint32_t match = pick_match(random);
-    if (match == 0) return false;
-    if (compatible({match})) return true;
-    ++picks;
+    // A few picks with replacement nearly always find one that fits, so no list is made.
+    constexpr int kQuickPicks = 8;
+    for (; picks < kQuickPicks; ++picks) {
+      const std::uint32_t match = pick_match(random);
+      if (match == 0) return false;
+      if (compatible({match})) return true;
+    }
     collect_same_edge();
-    std::erase_if(targets_, [&](const Target& target) { return target.gene == match; });
   }
   for (; picks < kMostPicks && !targets_.empty(); ++picks) {
     const std::uint32_t k = random.below(static_cast<std::uint32_t>(targets_.size()));

@@ -157,7 +157,9 @@ bool grow_open_slot(const GeneratorGraph& graph, Derivation& derivation, RandomS
   ledger.reset(graph, derivation);
   std::vector<OpenSlot> open;
   bool decided = false, made = false;
-  while (!made) {
+  constexpr std::size_t kMostNew = 10'000;  // grammars need not emit at all
+  const std::size_t most_genes = derivation.size() + kMostNew;
+  while (!made && derivation.size() < most_genes) {
     find_open_slots(graph, derivation, ledger, open);
     if (open.empty()) break;
     const OpenSlot& picked = open[random.below(static_cast<std::uint32_t>(open.size()))];

@@ -10,10 +10,12 @@ bool refit(const GeneratorGraph& graph, const Derivation& derivation, const Gene
   sweep.begin(graph, derivation, top, above);
   while (sweep.next()) {
     if (variant_probability(sweep.variant(), sweep.above()) <= 0) return false;
+    EdgeId guarded = 0;  // the edge that `stands` is about: slots of a `for` share theirs
+    bool stands = false;
     for (std::uint32_t k = 0; k < sweep.variant().slots.size(); ++k) {
       const EdgeId edge = sweep.slot_of_rule(k).edge;
       const SlotState state = sweep.slot(k);
-      const bool stands = may_stand(graph, edge, sweep.below());
+      if (edge != guarded) stands = may_stand(graph, guarded = edge, sweep.below());
       if (state == SlotState::filled && !(stands && fill_probability(graph.edges[edge], sweep.above()) > 0)) {
         return false;
       }

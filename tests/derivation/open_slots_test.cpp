@@ -1,0 +1,189 @@
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "chi_square.h"
+#include "derivation/encode.h"
+#include "derivation/sample.h"
+#include "enumerate.h"
+#include "random_derivation.h"
+
+namespace espalier {
+namespace {
+
+using namespace test;
+
+std::size_t count_open(const Derivation& d) {
+  return static_cast<std::size_t>(std::count(d.slots.begin(), d.slots.end(), SlotState::open));
+}
+
+GeneratorGraph tiny() {
+  GraphBuilder b("tiny");
+  const RuleId root = b.rule("Root"), twig = b.rule("Twig"), leaf = b.rule("Leaf");
+  b.guard(twig, depth_below(3));
+  b.maybe(root, twig, 0.6, 2);
+  b.maybe(twig, twig, 0.3);
+  b.spawn(twig, leaf);
+  b.variant(leaf, 0.5, {}, {});
+  b.variant(leaf, 0.5, {}, {});
+  return b.build();
+}
+
+TEST(GrowOpenSlot, StepByStepFollowsThePrior) {
+  const GeneratorGraph graph = tiny();
+  std::map<std::string, double> prior;
+  const Enumeration enumeration(graph);
+  for (const Enumerated& one : enumeration.all()) prior[one.key] += one.probability;
+  RandomStream random = stream(1);
+  std::map<std::string, int> counts;
+  for (int i = 0; i < 20000; ++i) {
+    Derivation d = seedling(graph, random);
+    while (grow_open_slot(graph, d, random)) {
+    }
+    EXPECT_EQ(count_open(d), 0u);
+    ++counts[key_of(graph, d)];
+  }
+  expect_distribution(prior, counts);
+}
+
+TEST(GrowOpenSlot, AStepEndsWithAGeneThatMakesSomething) {
+  GeneratorGraph graph = tiny();
+  Op emit;
+  emit.code = OpCode::emit;
+  for (Variant& variant : graph.rules[2].variants) variant.program.ops = {emit, Op{}};
+  EXPECT_TRUE(makes_something(graph.rules[2].variants[0]));
+  EXPECT_FALSE(makes_something(graph.rules[1].variants[0]));
+  int steps = 0;
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    RandomStream random = stream(seed);
+    Derivation d = seedling(graph, random);
+    const auto leaves = [&] {
+      return std::count_if(d.genes.begin(), d.genes.end(), [](const GeneRecord& gene) { return gene.edge == 3; });
+    };
+    for (long before = 0; grow_open_slot(graph, d, random); ++steps) {
+      ASSERT_EQ(find_fault(graph, d), "");
+      EXPECT_TRUE(leaves() == before + 1 || (leaves() == before && count_open(d) == 0));
+      before = leaves();
+    }
+  }
+  EXPECT_GT(steps, 500);
+}
+
+TEST(GrowOpenSlot, PicksOpenSlotsUniformly) {
+  GraphBuilder b("star");
+  const RuleId root = b.rule("Root"), leaf = b.rule("Leaf");
+  b.spawn(root, leaf);
+  b.maybe(root, leaf, 0.999, 3);
+  GeneratorGraph graph = b.build();
+  graph.rules[leaf].variants[0].program.ops.push_back({OpCode::bone, 0, Arithmetic::add, 0, 0, 0, 0, {}, {}, {}});
+  std::vector<int> counts(4);
+  RandomStream random = stream(3);
+  for (int i = 0; i < 8000; ++i) {
+    Derivation d = seedling(graph, random);
+    ASSERT_TRUE(grow_open_slot(graph, d, random));
+    const auto filled = std::find(d.slots.begin(), d.slots.end(), SlotState::filled);
+    if (count_open(d) == 3) ++counts[static_cast<std::size_t>(filled - d.slots.begin())];
+  }
+  expect_distribution(std::vector<double>(4, 0.25), counts);
+}
+
+TEST(GrowOpenSlot, StaysValidOnRandomGraphs) {
+  int steps = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    RandomStream random = stream(seed + 100);
+    GeneratorGraph graph = random_graph(random);
+    for (Rule& rule : graph.rules) {
+      if (random.chance(0.5)) continue;
+      for (Variant& variant : rule.variants) variant.program.ops.push_back({OpCode::emit, 0, {}, 0, 0, 0, 0, {}, {}, {}});
+    }
+    std::optional<Derivation> d = random_derivation(graph, random, 5);
+    for (int k = 0; d && k < 20 && d->size() < 500; ++k) {
+      const Derivation before = *d;
+      const bool grown = grow_open_slot(graph, *d, random);
+      ASSERT_EQ(find_fault(graph, *d), "") << "seed " << seed;
+      EXPECT_EQ(grown, !(before == *d));
+      EXPECT_EQ(d->detail_seed, before.detail_seed);
+      steps += grown;
+      if (!grown) break;
+    }
+  }
+  EXPECT_GT(steps, 100);
+}
+
+TEST(GrowOpenSlot, LeavesRequiredSlotsOfAFullRuleOpen) {
+  GraphBuilder b("full");
+  const RuleId root = b.rule("Root"), leaf = b.rule("Leaf");
+  b.spawn(root, leaf, 2);
+  b.maybe(root, leaf, 0.999999);
+  b.limit(leaf, 1);
+  const GeneratorGraph graph = b.build();
+  RandomStream random = stream(4);
+  for (int i = 0; i < 50; ++i) {
+    Derivation d = seedling(graph, random);
+    while (grow_open_slot(graph, d, random)) {
+    }
+    EXPECT_EQ(find_fault(graph, d), "");
+    EXPECT_EQ(d.size(), 2u);
+    EXPECT_LE(count_open(d), 2u);
+    const Derivation before = d;
+    EXPECT_FALSE(close_open_slots(graph, d, random));
+    EXPECT_EQ(d, before);
+  }
+}
+
+TEST(CloseOpenSlots, EmptiesOptionalAndGrowsRequired) {
+  GraphBuilder b("close");
+  const RuleId root = b.rule("Root"), twig = b.rule("Twig", 1), leaf = b.rule("Leaf", 1);
+  b.spawn(root, twig, 2);
+  b.maybe(root, leaf, 0.9);
+  b.spawn(twig, leaf);
+  b.maybe(twig, twig, 0.9);
+  const GeneratorGraph graph = b.build();
+  RandomStream random = stream(5);
+  Derivation d = seedling(graph, random);
+  ASSERT_TRUE(close_open_slots(graph, d, random));
+  EXPECT_EQ(key_of(graph, d), "0.0FFE 1.0FE 3.0 1.0FE 3.0 ");
+  EXPECT_EQ(find_fault(graph, d), "");
+  const Derivation closed = d;
+  EXPECT_TRUE(close_open_slots(graph, d, random));
+  EXPECT_EQ(d, closed);
+}
+
+TEST(CloseOpenSlots, KeepsWhatWasDecided) {
+  int closed_some = 0;
+  for (std::uint64_t seed = 0; seed < 1200; ++seed) {
+    RandomStream random = stream(seed + 5000);
+    const GeneratorGraph graph = random_graph(random);
+    Derivation before;
+    try {
+      before = sample(graph, random, 1 + random.below(12)).derivation;
+    } catch (const Error&) {
+      continue;
+    }
+    Derivation d = before;
+    if (!close_open_slots(graph, d, random)) {
+      EXPECT_EQ(d, before);
+      continue;
+    }
+    EXPECT_EQ(count_open(d), 0u);
+    ASSERT_EQ(find_fault(graph, d), "");
+    closed_some += !(d == before);
+    for (std::uint32_t g = 0; g < before.size(); ++g) {
+      const std::optional<std::uint32_t> now = find_gene(graph, d, gene_path(graph, before, g));
+      ASSERT_TRUE(now.has_value());
+      EXPECT_EQ(d.genes[*now].variant, before.genes[g].variant);
+      const GenePosition was = place_of(graph, before, g), is = place_of(graph, d, *now);
+      const Variant& variant = variant_of(graph, before.genes[g]);
+      EXPECT_TRUE(equal_run(before.draws, was.draw, d.draws, is.draw, variant.draws.size()));
+      for (std::size_t k = 0; k < variant.slots.size(); ++k) {
+        const SlotState old_state = before.slots[was.slot + k];
+        EXPECT_TRUE(old_state == SlotState::open || old_state == d.slots[is.slot + k]);
+      }
+    }
+  }
+  EXPECT_GT(closed_some, 150);
+}
+
+}  // namespace
+}  // namespace espalier
