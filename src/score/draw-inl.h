@@ -1,5 +1,5 @@
 // Drawing spans into the canvas, tile by tile. A part wholly inside the grid is drawn plainly; others are also counted
-// beyond it (kCounting). Included once per target.
+// beyond it. Included once per target.
 
 #if defined(ESPALIER_SCORE_DRAW_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ESPALIER_SCORE_DRAW_INL_H
@@ -7,6 +7,8 @@
 #else
 #define ESPALIER_SCORE_DRAW_INL_H
 #endif
+
+#include <algorithm>
 
 #include "score/spans-inl.h"
 #include "score/voxel_canvas.h"
@@ -17,6 +19,14 @@ namespace HWY_NAMESPACE {
 
 HWY_INLINE std::int32_t tile_of(std::int32_t y) { return y >> 3; }  // floor(y / 8)
 
+/// All bits set in the lanes whose row lies in [low, high).
+HWY_INLINE U8 rows_between(std::int32_t tile, std::int32_t low, std::int32_t high) {
+  static constexpr std::uint32_t kEdge[24] = {0, 0, 0, 0, 0, 0, 0, 0, ~0u, ~0u, ~0u, ~0u, ~0u, ~0u, ~0u, ~0u, 0, 0, 0,
+                                              0, 0, 0, 0, 0};
+  const std::int32_t from = std::clamp(low - tile * 8, 0, 8), to = std::clamp(high - tile * 8, 0, 8);
+  return U8::load_anywhere(kEdge + 8 - from) & U8::load_anywhere(kEdge + 16 - to);
+}
+
 /// once |= mask, twice |= what was there already.
 HWY_INLINE void put(const U8& mask, std::uint32_t* once, std::uint32_t* twice) {
   const U8 had = U8::load(once);
@@ -24,31 +34,23 @@ HWY_INLINE void put(const U8& mask, std::uint32_t* once, std::uint32_t* twice) {
   (had | mask).store(once);
 }
 
-/// Where in the canvas one part goes, and what it has added up. Depths are integers here: F = 32 (top_word + 1) - z.
+/// Where in the canvas one part goes. Depths are integers here: F = 32 (top_word + 1) - z.
 struct PartFrame {
-  Reach reach;                         // window-clipped
-  Reach grid;                          // grid-clipped
+  Reach reach;                         // clipped to the window
+  Reach grid;                          // clipped to the grid
   std::int32_t top_word;               // of `reach`
   std::int32_t first_word, last_word;  // of `grid`; first > last if none
-  I8 len_grid, len_window;             // voxels, per lane
 
-  HWY_INLINE void set(const Reach& part, const VoxelCanvas& canvas) {
-    reach = part;
-    grid = part.in_grid(canvas.lattice);
+  HWY_INLINE PartFrame(const Reach& part, const VoxelCanvas& canvas) : reach(part), grid(part.in_grid(canvas.lattice)) {
     top_word = (reach.high[2] - 1) >> 5;
     first_word = grid.low[2] >> 5;
     last_word = grid.empty() ? first_word - 1 : (grid.high[2] - 1) >> 5;
-    len_grid = len_window = I8::all(0);
   }
-  /// For lanes outside [low, high) rows: a depth that empties the row; else `depth`.
-  template <class Lanes, class Lane>
-  static HWY_INLINE Lanes row_floor(std::int32_t tile, std::int32_t low, std::int32_t high, Lane depth, Lane never) {
-    alignas(32) Lane lane[8];
-    for (std::int32_t i = 0; i < 8; ++i) {
-      const std::int32_t y = tile * 8 + i;
-      lane[i] = y >= low && y < high ? depth : never;
-    }
-    return Lanes::load(lane);
+  HWY_INLINE bool in_grid(std::int32_t tile) const {
+    return !grid.empty() && tile >= tile_of(grid.low[1]) && tile <= tile_of(grid.high[1] - 1);
+  }
+  HWY_INLINE void mark(VoxelCanvas& canvas, std::int32_t tile, std::int32_t from, std::int32_t to) const {
+    for (std::int32_t word = first_word; word <= last_word; ++word) canvas.mark(tile, word, from, to);
   }
 };
 
@@ -70,58 +72,46 @@ HWY_INLINE void put_spans(const I8& high, const I8& low, const PartFrame& part, 
   }
 }
 
-/// Calls rows(tile) for every tile row of eight that the part reaches, and keeps the sums.
-template <class Rows>
-HWY_INLINE void for_tiles(PartFrame& part, VoxelCanvas& canvas, const Rows& rows) {
-  for (std::int32_t tile = tile_of(part.reach.low[1]); tile <= tile_of(part.reach.high[1] - 1); ++tile) {
-    const bool in_grid = !part.grid.empty() && tile >= tile_of(part.grid.low[1]) &&
-                         tile <= tile_of(part.grid.high[1] - 1);
-    if (in_grid) {
-      for (std::int32_t word = part.first_word; word <= part.last_word; ++word) {
-        canvas.range(tile, word).add(part.grid.low[0], part.grid.high[0]);
-      }
-    }
-    rows(tile, in_grid);
-    canvas.hits += sum_of(part.len_grid);
-    canvas.outside += sum_of(part.len_window) - sum_of(part.len_grid);
-    part.len_grid = part.len_window = I8::all(0);
-  }
-}
-
-/// A part inside the grid. `spans(x, high, low)` gives integer depths, clipped to the part's reach.
+/// A tile row of a part inside the grid, x in [from, to). Returns the voxels per lane.
 template <bool kOneWord, class Spans>
-HWY_INLINE void draw_row_inside(PartFrame& part, VoxelCanvas& canvas, std::int32_t tile, Spans& spans) {
-  std::size_t row = canvas.row_offset(tile, part.first_word) + static_cast<std::size_t>(part.grid.low[0]) * 8;
+HWY_INLINE I8 draw_row_inside(const PartFrame& part, VoxelCanvas& canvas, std::int32_t tile, std::int32_t from,
+                              std::int32_t to, Spans& spans) {
+  std::size_t row = canvas.row_offset(tile, part.first_word) + static_cast<std::size_t>(from) * 8;
   const std::size_t stride = std::size_t{canvas.nx()} * 8;
   I8 sum = I8::all(0);
-  for (std::int32_t x = part.grid.low[0]; x < part.grid.high[0]; ++x, row += 8) {
+  for (std::int32_t x = from; x < to; ++x, row += 8) {
     I8 high, low;
     spans.next(high, low);
     sum = sum + (low - high);
     put_spans<kOneWord>(high, low, part, row, stride, canvas);
   }
-  part.len_grid = part.len_window = sum;
+  return sum;
 }
 
-/// A part that leaves the grid: counts all of it, draws what is inside.
+/// A tile row of a part that leaves the grid: counts all of it, draws what is inside.
 template <class Spans>
-HWY_INLINE void draw_row_counting(PartFrame& part, VoxelCanvas& canvas, std::int32_t tile, bool in_grid, Spans& spans) {
+HWY_INLINE void draw_row_counting(const PartFrame& part, VoxelCanvas& canvas, std::int32_t tile, Spans& spans) {
   const std::int32_t base = 32 * (part.top_word + 1);
-  const I8 grid_low = I8::all(base);
-  const I8 grid_high = PartFrame::row_floor<I8, std::int32_t>(tile, 0, canvas.lattice.cells[1],
-                                                              base - canvas.lattice.cells[2], INT32_MAX / 2);
+  const U8 rows = rows_between(tile, 0, canvas.lattice.cells[1]);
+  const I8 grid_low = I8::all(base);  // z = 0
+  const I8 grid_high = choose(to_int(rows), I8::all(base - canvas.lattice.cells[2]), I8::all(INT32_MAX / 2));
+  const bool in_grid = part.in_grid(tile);
   const std::size_t stride = std::size_t{canvas.nx()} * 8;
   const std::size_t start = in_grid ? canvas.row_offset(tile, part.first_word) : 0;
+  if (in_grid) part.mark(canvas, tile, part.grid.low[0], part.grid.high[0]);
+  I8 len_window = I8::all(0), len_grid = I8::all(0);
   for (std::int32_t x = part.reach.low[0]; x < part.reach.high[0]; ++x) {
     I8 high, low;
     spans.next(high, low);
-    part.len_window = part.len_window + (low - high);
+    len_window = len_window + (low - high);
     if (!in_grid || x < part.grid.low[0] || x >= part.grid.high[0]) continue;
     high = larger(high, grid_high);
     low = larger(smaller(low, grid_low), high);
-    part.len_grid = part.len_grid + (low - high);
+    len_grid = len_grid + (low - high);
     put_spans<false>(high, low, part, start + static_cast<std::size_t>(x) * 8, stride, canvas);
   }
+  canvas.hits += sum_of(len_grid);
+  canvas.outside += sum_of(len_window) - sum_of(len_grid);
 }
 
 /// The spans of a form, x after x, as integer depths.
@@ -131,13 +121,15 @@ struct FormSpans {
   LimitRow limits;
   F8 x, f_top, f_bottom;
 
-  HWY_INLINE FormSpans(const SpanForm& form, std::int32_t tile) {
-    const std::int32_t first = tile * 8 - form.origin[1];
+  template <class Form>
+  HWY_INLINE FormSpans(const Form& form, std::int32_t tile, std::int32_t from) {
+    const std::int32_t first = tile * 8 - form.origin(1);
     row.set(form, lanes_from(static_cast<float>(first)));
     if constexpr (kLimited) limits.set(form, first);
-    x = F8::all(static_cast<float>(form.reach.low[0] - form.origin[0]));
-    f_top = PartFrame::row_floor<F8, float>(tile, form.reach.low[1], form.reach.high[1], form.f_top, kNever);
-    f_bottom = F8::all(form.f_bottom);
+    x = F8::all(static_cast<float>(from - form.origin(0)));
+    const U8 rows = rows_between(tile, form.reach().low[1], form.reach().high[1]);
+    f_top = choose(to_float(rows), F8::all(form.f_top()), F8::all(kNever));
+    f_bottom = F8::all(form.f_bottom());
   }
   HWY_INLINE void next(I8& high, I8& low) {
     Span span = row.at(x);
@@ -149,17 +141,45 @@ struct FormSpans {
   }
 };
 
-template <class Row, bool kLimited>
-HWY_NOINLINE void draw_form(const SpanForm& form, VoxelCanvas& canvas) {
-  PartFrame part;
-  part.set(form.reach, canvas);
-  const bool inside = form.reach.inside(canvas.lattice);
-  for_tiles(part, canvas, [&](std::int32_t tile, bool in_grid) HWY_ATTR {
-    FormSpans<Row, kLimited> spans(form, tile);
-    if (!inside) draw_row_counting(part, canvas, tile, in_grid, spans);
-    else if (part.first_word == part.top_word) draw_row_inside<true>(part, canvas, tile, spans);
-    else draw_row_inside<false>(part, canvas, tile, spans);
-  });
+/// The x that a tile row of the part may cover: its reach, narrowed by the bands.
+template <class Form>
+HWY_INLINE void narrow(const Form& form, std::int32_t tile, std::int32_t& from, std::int32_t& to) {
+  const std::int32_t ox = form.origin(0);
+  float low = static_cast<float>(form.reach().low[0] - ox), high = static_cast<float>(form.reach().high[0] - 1 - ox);
+  const float y = static_cast<float>(tile * 8 - form.origin(1));
+  for (int k = 0; k < Form::kBands; ++k) {
+    const Band band = form.band(k);
+    low = std::max(low, band.slope * y + band.low);
+    high = std::min(high, band.slope * y + band.high);
+  }
+  from = ox + static_cast<std::int32_t>(std::min(low, 1e6f));
+  to = ox + static_cast<std::int32_t>(std::max(high, -1e6f)) + 1;
+  if (low > high) to = from;
+}
+
+template <class Row, bool kLimited, class Form>
+HWY_NOINLINE void draw_form(const Form& form, VoxelCanvas& canvas) {
+  const Reach& reach = form.reach();
+  const PartFrame part(reach, canvas);
+  const std::int32_t last = tile_of(reach.high[1] - 1);
+  if (!reach.inside(canvas.lattice)) {
+    for (std::int32_t tile = tile_of(reach.low[1]); tile <= last; ++tile) {
+      FormSpans<Row, kLimited> spans(form, tile, reach.low[0]);
+      draw_row_counting(part, canvas, tile, spans);
+    }
+    return;
+  }
+  I8 sum = I8::all(0);
+  for (std::int32_t tile = tile_of(reach.low[1]); tile <= last; ++tile) {
+    std::int32_t from, to;
+    narrow(form, tile, from, to);
+    if (from >= to) continue;
+    part.mark(canvas, tile, from, to);
+    FormSpans<Row, kLimited> spans(form, tile, from);
+    sum = sum + (part.first_word == part.top_word ? draw_row_inside<true>(part, canvas, tile, from, to, spans)
+                                                  : draw_row_inside<false>(part, canvas, tile, from, to, spans));
+  }
+  canvas.hits += sum_of(sum);
 }
 
 template <class Row>
@@ -168,17 +188,17 @@ HWY_INLINE void draw_form_of(const SpanForm& form, VoxelCanvas& canvas) {
 }
 
 HWY_INLINE void draw(const SpanForm& form, VoxelCanvas& canvas) {
-  switch (form.quadric) {
+  switch (form.quadric()) {
     case Quadric::sphere: return draw_form<SphereRow, false>(form, canvas);
     case Quadric::lens: return draw_form_of<RoundRow<Quadric::lens>>(form, canvas);
     case Quadric::up: return draw_form_of<RoundRow<Quadric::up>>(form, canvas);
     case Quadric::down: return draw_form_of<RoundRow<Quadric::down>>(form, canvas);
     case Quadric::none: break;
   }
-  if (form.lowers + form.uppers > 0) return draw_form_of<PlaneRow>(form, canvas);
-  if (form.slabs == 3) return draw_form<SlabRow<3>, false>(form, canvas);
-  if (form.slabs == 2) return draw_form<SlabRow<2>, true>(form, canvas);
-  draw_form<SlabRow<1>, true>(form, canvas);
+  if (form.lowers() + form.uppers() > 0) return draw_form_of<PlaneRow>(form, canvas);
+  if (form.slabs() == 3) return draw_form_of<SlabRow<3>>(form, canvas);
+  if (form.slabs() == 2) return draw_form_of<SlabRow<2>>(form, canvas);
+  draw_form_of<SlabRow<1>>(form, canvas);
 }
 
 }  // namespace HWY_NAMESPACE

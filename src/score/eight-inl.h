@@ -1,5 +1,5 @@
-// Eight lanes on every machine: one AVX2 register, two of 128 bits, or eight numbers one by one. All paths give the
-// same bytes: no fused multiply-add, no approximations, shifts by 32 and more give 0. Included once per target.
+// Eight lanes of 32 bits (or four of 64) on every machine: one AVX2 register or two of 128 bits. All paths give the same
+// bytes: no fused multiply-add, no approximations, shifts by 32 and more give 0. Included once per target.
 
 #if defined(ESPALIER_SCORE_EIGHT_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ESPALIER_SCORE_EIGHT_INL_H
@@ -21,23 +21,30 @@ namespace hn = hwy::HWY_NAMESPACE;
 using FloatTag = hn::CappedTag<float, 8>;
 using IntTag = hn::RebindToSigned<FloatTag>;
 using WordTag = hn::RebindToUnsigned<FloatTag>;
+using DoubleTag = hn::CappedTag<double, 4>;
 inline constexpr std::size_t kStep = hn::MaxLanes(FloatTag());
-inline constexpr std::size_t kBlocks = 8 / kStep;
 
 template <class Tag>
 struct Eight {
   using Lane = hn::TFromD<Tag>;
+  static constexpr std::size_t kStep = hn::MaxLanes(Tag());
+  static constexpr std::size_t kBlocks = 32 / sizeof(Lane) / kStep;
   hn::Vec<Tag> block[kBlocks];
 
   static HWY_INLINE Eight all(Lane value) {
     Eight r;
-    for (std::size_t i = 0; i < kBlocks; ++i) r.block[i] = hn::Set(Tag(), value);
+    for (std::size_t i = 0; i < r.kBlocks; ++i) r.block[i] = hn::Set(Tag(), value);
+    return r;
+  }
+  static HWY_INLINE Eight load_anywhere(const Lane* from) {
+    Eight r;
+    for (std::size_t i = 0; i < r.kBlocks; ++i) r.block[i] = hn::LoadU(Tag(), from + i * kStep);
     return r;
   }
   /// Aligned to 32 bytes.
   static HWY_INLINE Eight load(const Lane* from) {
     Eight r;
-    for (std::size_t i = 0; i < kBlocks; ++i) r.block[i] = hn::Load(Tag(), from + i * kStep);
+    for (std::size_t i = 0; i < r.kBlocks; ++i) r.block[i] = hn::Load(Tag(), from + i * kStep);
     return r;
   }
   HWY_INLINE void store(Lane* to) const {
@@ -47,17 +54,19 @@ struct Eight {
 using F8 = Eight<FloatTag>;
 using I8 = Eight<IntTag>;
 using U8 = Eight<WordTag>;
+using D4 = Eight<DoubleTag>;
 
 #define ESPALIER_EIGHT_BINARY(name, call)                                                        \
   template <class Tag>                                                                           \
   HWY_INLINE Eight<Tag> name(const Eight<Tag>& a, const Eight<Tag>& b) {                         \
     Eight<Tag> r;                                                                                \
-    for (std::size_t i = 0; i < kBlocks; ++i) r.block[i] = hn::call(a.block[i], b.block[i]);     \
+    for (std::size_t i = 0; i < r.kBlocks; ++i) r.block[i] = hn::call(a.block[i], b.block[i]);     \
     return r;                                                                                    \
   }
 ESPALIER_EIGHT_BINARY(operator+, Add)
 ESPALIER_EIGHT_BINARY(operator-, Sub)
 ESPALIER_EIGHT_BINARY(operator*, Mul)
+ESPALIER_EIGHT_BINARY(operator/, Div)
 ESPALIER_EIGHT_BINARY(operator|, Or)
 ESPALIER_EIGHT_BINARY(operator&, And)
 ESPALIER_EIGHT_BINARY(operator^, Xor)
@@ -65,17 +74,33 @@ ESPALIER_EIGHT_BINARY(smaller, Min)
 ESPALIER_EIGHT_BINARY(larger, Max)
 #undef ESPALIER_EIGHT_BINARY
 
-HWY_INLINE F8 square_root(const F8& a) {
-  F8 r;
-  for (std::size_t i = 0; i < kBlocks; ++i) r.block[i] = hn::Sqrt(a.block[i]);
+#define ESPALIER_EIGHT_UNARY(name, call)                                              \
+  template <class Tag>                                                                \
+  HWY_INLINE Eight<Tag> name(const Eight<Tag>& a) {                                   \
+    Eight<Tag> r;                                                                     \
+    for (std::size_t i = 0; i < r.kBlocks; ++i) r.block[i] = hn::call(a.block[i]);      \
+    return r;                                                                         \
+  }
+ESPALIER_EIGHT_UNARY(square_root, Sqrt)
+ESPALIER_EIGHT_UNARY(magnitude, Abs)
+ESPALIER_EIGHT_UNARY(rounded_up, Ceil)
+ESPALIER_EIGHT_UNARY(operator-, Neg)
+#undef ESPALIER_EIGHT_UNARY
+
+/// All bits set where a < b (never for NaN).
+template <class Tag>
+HWY_INLINE Eight<Tag> less(const Eight<Tag>& a, const Eight<Tag>& b) {
+  Eight<Tag> r;
+  for (std::size_t i = 0; i < r.kBlocks; ++i) r.block[i] = hn::VecFromMask(Tag(), hn::Lt(a.block[i], b.block[i]));
   return r;
 }
 
-/// a where `test` >= 0, else b.
-HWY_INLINE F8 where_not_negative(const F8& test, const F8& a, const F8& b) {
-  F8 r;
-  for (std::size_t i = 0; i < kBlocks; ++i) {
-    r.block[i] = hn::IfThenElse(hn::Ge(test.block[i], hn::Zero(FloatTag())), a.block[i], b.block[i]);
+/// a where the lane of `test`, made by `less`, is set, else b.
+template <class Tag>
+HWY_INLINE Eight<Tag> choose(const Eight<Tag>& test, const Eight<Tag>& a, const Eight<Tag>& b) {
+  Eight<Tag> r;
+  for (std::size_t i = 0; i < r.kBlocks; ++i) {
+    r.block[i] = hn::IfThenElse(hn::MaskFromVec(test.block[i]), a.block[i], b.block[i]);
   }
   return r;
 }
@@ -83,7 +108,7 @@ HWY_INLINE F8 where_not_negative(const F8& test, const F8& a, const F8& b) {
 /// Towards zero. Beyond the range of int the result is one fixed value per target, the same for equal inputs.
 HWY_INLINE I8 truncate(const F8& a) {
   I8 r;
-  for (std::size_t i = 0; i < kBlocks; ++i) {
+  for (std::size_t i = 0; i < r.kBlocks; ++i) {
 #if HWY_TARGET == HWY_AVX2
     r.block[i] = hn::Vec<IntTag>{_mm256_cvttps_epi32(a.block[i].raw)};
 #elif HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
@@ -98,7 +123,7 @@ HWY_INLINE I8 truncate(const F8& a) {
 /// The lowest 32 - n bits of each lane, for n >= 0; none from 32 on.
 HWY_INLINE U8 low_bits_but(const I8& n) {
   U8 r;
-  for (std::size_t i = 0; i < kBlocks; ++i) {
+  for (std::size_t i = 0; i < r.kBlocks; ++i) {
     const auto count = hn::BitCast(WordTag(), n.block[i]);
     const auto ones = hn::Set(WordTag(), ~0u);
 #if HWY_TARGET == HWY_AVX2
@@ -114,10 +139,21 @@ HWY_INLINE U8 low_bits_but(const I8& n) {
   return r;
 }
 
+HWY_INLINE F8 to_float(const U8& bits) {
+  F8 r;
+  for (std::size_t i = 0; i < r.kBlocks; ++i) r.block[i] = hn::BitCast(FloatTag(), bits.block[i]);
+  return r;
+}
+HWY_INLINE I8 to_int(const U8& bits) {
+  I8 r;
+  for (std::size_t i = 0; i < r.kBlocks; ++i) r.block[i] = hn::BitCast(IntTag(), bits.block[i]);
+  return r;
+}
+
 /// 0, 1, .. 7 plus `first`.
 HWY_INLINE F8 lanes_from(float first) {
   F8 r;
-  for (std::size_t i = 0; i < kBlocks; ++i) {
+  for (std::size_t i = 0; i < r.kBlocks; ++i) {
     r.block[i] = hn::Iota(FloatTag(), first + static_cast<float>(i * kStep));
   }
   return r;

@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/check.h"
 #include "score/draw-inl.h"
+#include "score/part_batch-inl.h"
 #include "score/volume_kernel.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,7 +28,7 @@ HWY_NOINLINE void draw_block(const Reach& reach, VoxelCanvas& canvas) {
   if (in_grid == 0) return;
   const std::int32_t last = (grid.high[2] - 1) >> 5;
   for (std::int32_t tile = tile_of(grid.low[1]); tile <= tile_of(grid.high[1] - 1); ++tile) {
-    const U8 rows = PartFrame::row_floor<U8, std::uint32_t>(tile, grid.low[1], grid.high[1], ~0u, 0u);
+    const U8 rows = rows_between(tile, grid.low[1], grid.high[1]);
     for (std::int32_t word = grid.low[2] >> 5; word <= last; ++word) {
       const std::int32_t from = std::max(grid.low[2] - 32 * word, 0), to = std::min(grid.high[2] - 32 * word, 32);
       const U8 mask = rows & U8::all((~0u >> (32 - (to - from))) << from);
@@ -34,7 +36,7 @@ HWY_NOINLINE void draw_block(const Reach& reach, VoxelCanvas& canvas) {
       std::uint32_t* once = canvas.once.data() + row;
       std::uint32_t* twice = canvas.twice.data() + row;
       for (std::int32_t x = grid.low[0]; x < grid.high[0]; ++x) put(mask, once + x * 8, twice + x * 8);
-      canvas.range(tile, word).add(grid.low[0], grid.high[0]);
+      canvas.mark(tile, word, grid.low[0], grid.high[0]);
     }
   }
 }
@@ -65,12 +67,11 @@ struct ColumnSpans {
 
 HWY_NOINLINE void draw_columns(const ConvexShape& shape, VoxelCanvas& canvas) {
   if (shape.fills_reach()) return draw_block(shape.reach, canvas);
-  PartFrame part;
-  part.set(shape.reach, canvas);
-  for_tiles(part, canvas, [&](std::int32_t tile, bool in_grid) HWY_ATTR {
+  const PartFrame part(shape.reach, canvas);
+  for (std::int32_t tile = tile_of(part.reach.low[1]); tile <= tile_of(part.reach.high[1] - 1); ++tile) {
     ColumnSpans spans(shape, part, tile);
-    draw_row_counting(part, canvas, tile, in_grid, spans);
-  });
+    draw_row_counting(part, canvas, tile, spans);
+  }
 }
 
 /// One tile of scanned bits: into the planes where they lie in the grid, counted everywhere.
@@ -78,7 +79,7 @@ HWY_INLINE void draw_scanned(const std::uint32_t* bits, const FacetScan& scan, s
   const Reach& reach = scan.reach();
   const Reach grid = reach.in_grid(canvas.lattice);
   const std::int32_t beyond = canvas.lattice.cells[2] % 32;
-  const U8 rows = PartFrame::row_floor<U8, std::uint32_t>(tile, 0, canvas.lattice.cells[1], ~0u, 0u);
+  const U8 rows = rows_between(tile, 0, canvas.lattice.cells[1]);
   std::uint64_t all = 0, in_grid = 0;
   for (std::int32_t x = reach.low[0]; x < reach.high[0]; ++x) {
     for (std::int32_t w = 0; w < scan.words(); ++w, bits += 8) {
@@ -108,30 +109,143 @@ HWY_NOINLINE void draw_facets(const Solid& solid, const Placement& placement, Vo
   for (std::int32_t tile = tile_of(reach.low[1]); tile <= tile_of(reach.high[1] - 1); ++tile) {
     if (!grid.empty() && tile >= 0 && tile < canvas.tile_rows()) {
       for (std::int32_t word = grid.low[2] >> 5; word <= (grid.high[2] - 1) >> 5; ++word) {
-        canvas.range(tile, word).add(grid.low[0], grid.high[0]);
+        canvas.mark(tile, word, grid.low[0], grid.high[0]);
       }
     }
     draw_scanned(scan.scan(tile), scan, tile, canvas);
   }
 }
 
-HWY_INLINE void draw_part(const Solid& solid, const Instance& instance, VolumeScratch& scratch) {
-  if (solid.kind == SolidKind::nothing) return;
+/// A convex part on its own, with all the care that it may need.
+HWY_NOINLINE void draw_convex(const Solid& solid, const Instance& instance, const Placement& placement,
+                              VolumeScratch& scratch) {
+  if (!scratch.shape.set(scratch.canvas.lattice, solid, placement, instance.top)) return;
+  if (scratch.form.set(scratch.shape)) draw(scratch.form, scratch.canvas);
+  else draw_columns(scratch.shape, scratch.canvas);
+}
+
+/// One part of a batch, as draw_form sees it.
+template <int kBandCount>
+class LaneForm {
+ public:
+  static constexpr int kBands = kBandCount;
+  HWY_INLINE LaneForm(const PartBatch& batch, int lane) : batch_(&batch), lane_(lane) {
+    for (int i = 0; i < 3; ++i) {
+      reach_.low[i] = batch.reach(i, lane);
+      reach_.high[i] = batch.reach(3 + i, lane);
+    }
+    for (int i = 0; i < 2; ++i) origin_[i] = batch.origin(i, lane);
+  }
+  HWY_INLINE const Reach& reach() const { return reach_; }
+  HWY_INLINE std::int32_t origin(int axis) const { return origin_[axis]; }
+  HWY_INLINE float f_top() const { return at(PartBatch::kTop); }
+  HWY_INLINE float f_bottom() const { return at(PartBatch::kBottom); }
+  HWY_INLINE LinearForm slab(int i) const { return linear(PartBatch::kSlab + 4 * i); }
+  HWY_INLINE float width(int i) const { return at(PartBatch::kSlab + 4 * i + 3); }
+  HWY_INLINE LinearForm middle() const { return linear(PartBatch::kMiddle); }
+  HWY_INLINE LinearForm along() const { return linear(PartBatch::kAlong); }
+  HWY_INLINE LinearForm across() const { return linear(PartBatch::kAcross); }
+  HWY_INLINE LinearForm side() const { return {0, at(PartBatch::kSide), at(PartBatch::kSide + 1)}; }
+  HWY_INLINE float most() const { return at(PartBatch::kMost); }
+  HWY_INLINE Band band(int k) const {
+    const int row = PartBatch::kBand + 3 * k;
+    return {at(row), at(row + 1), at(row + 2)};
+  }
+
+ private:
+  HWY_INLINE float at(int row) const { return batch_->value(row, lane_); }
+  HWY_INLINE LinearForm linear(int row) const { return {at(row), at(row + 1), at(row + 2)}; }
+
+  const PartBatch* batch_;
+  int lane_;
+  Reach reach_;
+  std::int32_t origin_[2];
+};
+
+/// Parts of one kind, waiting until four have come together.
+struct Waiting {
+  const Instance* part[4];
+  int count = 0;
+};
+
+HWY_INLINE void draw_lane(const PartBatch& batch, int lane, SolidKind kind, VoxelCanvas& canvas) {
+  if (kind == SolidKind::box) return draw_form<SlabRow<3>, false>(LaneForm<3>(batch, lane), canvas);
+  if (kind == SolidKind::sphere) return draw_form<SphereRow, false>(LaneForm<1>(batch, lane), canvas);
+  const LaneForm<2> form(batch, lane);
+  if (batch.lens(lane)) return draw_form<RoundRow<Quadric::lens>, false>(form, canvas);
+  if (batch.up(lane)) return draw_form<RoundRow<Quadric::up>, false>(form, canvas);
+  draw_form<RoundRow<Quadric::down>, false>(form, canvas);
+}
+
+HWY_NOINLINE void draw_batch(Waiting& waiting, const Solid& solid, VolumeScratch& scratch) {
   VoxelCanvas& canvas = scratch.canvas;
-  Placement placement;
-  if (!place(canvas.lattice, instance.model_from_mesh, placement)) return;
-  if (solid.kind == SolidKind::facets) return draw_facets(solid, placement, scratch);
-  if (solid.kind == SolidKind::box) {
-    Reach reach;
-    bool covers;
-    if (aligned_box(canvas.lattice, placement, reach, covers)) {
-      if (covers && !reach.empty()) draw_block(reach, canvas);
-      return;
+  if (waiting.count == 0) return;
+  for (int lane = waiting.count; lane < 4; ++lane) waiting.part[lane] = waiting.part[0];
+  PartBatch batch;
+  batch.load(canvas.lattice, waiting.part);
+  if (solid.kind == SolidKind::box) batch.set_boxes(canvas.lattice);
+  else if (solid.kind == SolidKind::sphere) batch.set_spheres(canvas.lattice);
+  else batch.set_rounds(canvas.lattice, waiting.part, solid.tapered);
+  for (int lane = 0; lane < waiting.count; ++lane) {
+    if (batch.ready(lane)) {
+      if (!batch.empty(lane)) draw_lane(batch, lane, solid.kind, canvas);
+      continue;
+    }
+    Placement placement;
+    if (place(canvas.lattice, waiting.part[lane]->model_from_mesh, placement)) {
+      draw_convex(solid, *waiting.part[lane], placement, scratch);
     }
   }
-  if (!scratch.shape.set(canvas.lattice, solid, placement, instance.top)) return;
-  if (scratch.form.set(scratch.shape)) draw(scratch.form, canvas);
-  else draw_columns(scratch.shape, canvas);
+  waiting.count = 0;
+}
+
+/// True if the part is a box along the axes, which is then drawn.
+HWY_INLINE bool draw_aligned(const Instance& instance, VoxelCanvas& canvas) {
+  Placement placement;
+  if (!place(canvas.lattice, instance.model_from_mesh, placement)) return true;
+  Reach reach;
+  bool covers;
+  if (!aligned_box(canvas.lattice, placement, reach, covers)) return false;
+  if (covers && !reach.empty()) draw_block(reach, canvas);
+  return true;
+}
+
+/// Draws the parts that the view shows. Their order does not matter to the planes and sums.
+HWY_INLINE void draw_parts(const std::vector<Solid>& solids, std::span<const Instance> instances, VolumeView view,
+                           VolumeScratch& scratch) {
+  // Boxes, spheres, cylinders and cones wait here; solids of one of these kinds are all alike.
+  constexpr int kKinds = 4;
+  Waiting waiting[kKinds];
+  const Solid* alike[kKinds] = {};
+  for (const Instance& instance : instances) {
+    if (!shows(view, instance)) continue;
+    DCHECK(instance.mesh < solids.size());
+    const Solid& solid = solids[instance.mesh];
+    int slot = -1;
+    switch (solid.kind) {
+      case SolidKind::nothing: continue;
+      case SolidKind::box:
+        if (draw_aligned(instance, scratch.canvas)) continue;
+        slot = 0;
+        break;
+      case SolidKind::sphere: slot = 1; break;
+      case SolidKind::round: slot = solid.tapered ? 2 : 3; break;
+      default: break;
+    }
+    if (slot >= 0) {
+      alike[slot] = &solid;
+      waiting[slot].part[waiting[slot].count++] = &instance;
+      if (waiting[slot].count == 4) draw_batch(waiting[slot], solid, scratch);
+      continue;
+    }
+    Placement placement;
+    if (!place(scratch.canvas.lattice, instance.model_from_mesh, placement)) continue;
+    if (solid.kind == SolidKind::facets) draw_facets(solid, placement, scratch);
+    else draw_convex(solid, instance, placement, scratch);
+  }
+  for (int slot = 0; slot < kKinds; ++slot) {
+    if (alike[slot] != nullptr) draw_batch(waiting[slot], *alike[slot], scratch);
+  }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -8,14 +8,19 @@ namespace {
 
 /// A face that leans by less than this many cells over the height of its part counts as upright.
 constexpr double kUpright = 1e-6;
-/// Estimated error of a cone's row end, in units of float rounding; beyond it doubles take over (see set_round).
-constexpr double kWorstCondition = 300;
+/// Estimated error of a cone's row end, in units of float rounding; beyond it doubles take over (see well_conditioned).
+constexpr double kWorstCondition = 300;  // also in part_batch-inl.h
 
 LinearForm scaled(double a, double b, double c, double s) {
   return {static_cast<float>(a * s), static_cast<float>(b * s), static_cast<float>(c * s)};
 }
 
 double height(const Reach& reach) { return reach.high[2] - reach.low[2]; }
+
+/// A face that only bounds y: the reach does that already, exactly.
+bool bounds_y_only(double nx, double ny, double nz, double span_x, double span_z) {
+  return std::abs(nx) * span_x + std::abs(nz) * span_z <= kUpright * std::abs(ny);
+}
 
 bool is_upright(double nx, double ny, double nz, double span) {
   return std::abs(nz) * span <= kUpright * std::max(std::abs(nx), std::abs(ny));
@@ -27,42 +32,47 @@ std::int32_t floor_div(std::int32_t a, std::int32_t b) { return a >= 0 ? a / b :
 
 /// The depth of the plane z = a x + b y + c.
 LinearForm SpanForm::depth(double a, double b, double c) const {
-  const double base = 32.0 * (top_word + 1) - origin[2];
+  const double base = 32.0 * (top_word_ + 1) - origin_[2];
   return {static_cast<float>(-a), static_cast<float>(-b), static_cast<float>(base - c)};
 }
 
 bool SpanForm::add_half_space(const double n[3], double offset) {
-  if (is_upright(n[0], n[1], n[2], height(reach))) {
-    if (limits == kMostLimits) return false;
-    limit[limits][0] = n[0];
-    limit[limits][1] = n[1];
-    limit[limits][2] = offset;
-    ++limits;
+  if (is_upright(n[0], n[1], n[2], height(reach_))) {
+    if (limits_ == kMostLimits) return false;
+    limit_[limits_][0] = n[0];
+    limit_[limits_][1] = n[1];
+    limit_[limits_][2] = offset;
+    ++limits_;
     return true;
   }
   const LinearForm form = depth(-n[0] / n[2], -n[1] / n[2], offset / n[2]);
   if (n[2] < 0) {  // lowers come first
-    plane[lowers + uppers] = plane[lowers];
-    plane[lowers++] = form;
+    plane_[lowers_ + uppers_] = plane_[lowers_];
+    plane_[lowers_++] = form;
   } else {
-    plane[lowers + uppers++] = form;
+    plane_[lowers_ + uppers_++] = form;
   }
   return true;
 }
 
 bool SpanForm::set_slabs(const ConvexShape& shape) {
-  const double span = height(reach);
+  const double span = height(reach_), width_x = reach_.high[0] - reach_.low[0];
   for (int s = 0; s < shape.slabs; ++s) {
     const int j = shape.slab_row[s];
     const double* n = shape.l[j];
+    if (bounds_y_only(n[0], n[1], n[2], width_x, span)) continue;
     if (is_upright(n[0], n[1], n[2], span)) {
       const double back[3] = {-n[0], -n[1], -n[2]};
       if (!add_half_space(n, 0.5 - shape.t[j]) || !add_half_space(back, 0.5 + shape.t[j])) return false;
       continue;
     }
     const double z = 1 / n[2], half = 0.5 * std::abs(z);
-    slab[slabs] = depth(-n[0] * z, -n[1] * z, -shape.t[j] * z - half);
-    width[slabs++] = static_cast<float>(2 * half);
+    slab_[slabs_] = depth(-n[0] * z, -n[1] * z, -shape.t[j] * z - half);
+    width_[slabs_++] = static_cast<float>(2 * half);
+  }
+  if (slabs_ == 0) {  // bounds nothing
+    slab_[slabs_] = {0, 0, f_bottom_};
+    width_[slabs_++] = f_bottom_ - f_top_;
   }
   return true;
 }
@@ -87,11 +97,11 @@ void SpanForm::set_sphere(const ConvexShape& shape) {
       two[k] += e2[j] * p[k] * s;
     }
   }
-  quadric = Quadric::sphere;
-  middle = depth(mid[0], mid[1], mid[2]);
-  across = scaled(one[0], one[1], one[2], 1);
-  side = scaled(0, two[1], two[2], 1);
-  most = static_cast<float>(0.25 * s * s);
+  quadric_ = Quadric::sphere;
+  middle_ = depth(mid[0], mid[1], mid[2]);
+  across_ = scaled(one[0], one[1], one[2], 1);
+  side_ = scaled(0, two[1], two[2], 1);
+  most_ = static_cast<float>(0.25 * s * s);
 }
 
 bool SpanForm::set_upright(const ConvexShape& shape) {
@@ -99,20 +109,35 @@ bool SpanForm::set_upright(const ConvexShape& shape) {
   const double ax = shape.l[0][0], ay = shape.l[0][1], bx = shape.l[2][0], by = shape.l[2][1];
   const double p = std::sqrt(ax * ax + bx * bx);
   if (!(p > 0)) return false;
-  upright = true;
-  ellipse[0] = (ax * ay + bx * by) / (p * p);
-  ellipse[1] = (ax * shape.t[0] + bx * shape.t[2]) / (p * p);
-  ellipse[2] = (ax * by - bx * ay) / (p * p);
-  ellipse[3] = (ax * shape.t[2] - bx * shape.t[0]) / (p * p);
-  ellipse[4] = shape.radius * shape.radius / (p * p);
+  upright_ = true;
+  ellipse_[0] = (ax * ay + bx * by) / (p * p);
+  ellipse_[1] = (ax * shape.t[0] + bx * shape.t[2]) / (p * p);
+  ellipse_[2] = (ax * by - bx * ay) / (p * p);
+  ellipse_[3] = (ax * shape.t[2] - bx * shape.t[0]) / (p * p);
+  ellipse_[4] = shape.radius * shape.radius / (p * p);
   return true;
+}
+
+/// Rows nearly along a cone's side: one end is the difference of two large numbers. Its error in z, times how steeply
+/// the surface is cut there, is the error in cells.
+bool SpanForm::well_conditioned(const ConvexShape& shape, double a, const double middle[3],
+                                const double along[3]) const {
+  const auto& l = shape.l;
+  const double ex = shape.extent[0], ey = shape.extent[1];
+  const double m = std::abs(middle[0]) * ex + std::abs(middle[1]) * ey + std::abs(middle[2]) + height(reach_);
+  const double h = std::abs(along[0]) * ex + std::abs(along[1]) * ey + std::abs(along[2]);
+  const double widest = shape.radius + 0.5 * std::abs(shape.taper);
+  const double per_cell_x = l[0][0] * l[0][0] + l[0][1] * l[0][1] + l[0][2] * l[0][2];
+  const double per_cell_z = l[2][0] * l[2][0] + l[2][1] * l[2][1] + l[2][2] * l[2][2];
+  const double per_cell = std::sqrt(std::min(per_cell_x, per_cell_z));  // change of the local radius
+  return m * h * std::abs(a) < kWorstCondition * widest * per_cell;
 }
 
 // With <u, w> = uX wX + uZ wZ - uR wR, a row's ends solve <q, q> = 0, q = p + z d, p the row's start, d its direction:
 // z = (-<d,p> +- sqrt(D)) / <d,d> and D = along^2 -+ across^2 with `across` the distance from the axis' plane.
 bool SpanForm::set_round(const ConvexShape& shape) {
   const auto& l = shape.l;
-  const double span = height(reach);
+  const double span = height(reach_);
   const double rz = shape.taper * l[1][2];
   const double g = std::sqrt(l[0][2] * l[0][2] + l[2][2] * l[2][2]);
   if (g * span < 1e-8 && shape.taper == 0) return set_upright(shape);
@@ -128,39 +153,28 @@ bool SpanForm::set_round(const ConvexShape& shape) {
     p[k] = (g * r - rz * u) / std::abs(a);
     v[k] = (z * dx - x * dz) / std::sqrt(std::abs(a));
   }
-  if (shape.taper != 0) {
-    // Rows nearly along the cone's side: one end is the difference of two large numbers. Its error in z, times how
-    // steeply the surface is cut there, is the error in cells.
-    const double ex = shape.extent[0], ey = shape.extent[1];
-    const double m = std::abs(mid[0]) * ex + std::abs(mid[1]) * ey + std::abs(mid[2]) + span;
-    const double h = std::abs(p[0]) * ex + std::abs(p[1]) * ey + std::abs(p[2]);
-    const double widest = std::max(shape.radius + 0.5 * shape.taper, shape.radius - 0.5 * shape.taper);
-    const double per_cell_x = l[0][0] * l[0][0] + l[0][1] * l[0][1] + l[0][2] * l[0][2];
-    const double per_cell_z = l[2][0] * l[2][0] + l[2][1] * l[2][1] + l[2][2] * l[2][2];
-    const double per_cell = std::sqrt(std::min(per_cell_x, per_cell_z));  // change of the local radius
-    if (!(m * h * std::abs(a) < kWorstCondition * widest * per_cell)) return false;
-  }
-  quadric = a > 0 ? Quadric::lens : rz > 0 ? Quadric::up : Quadric::down;
-  middle = depth(mid[0], mid[1], mid[2]);
-  along = scaled(p[0], p[1], p[2], 1);
-  across = scaled(v[0], v[1], v[2], 1);
+  if (shape.taper != 0 && !well_conditioned(shape, a, mid, p)) return false;
+  quadric_ = a > 0 ? Quadric::lens : rz > 0 ? Quadric::up : Quadric::down;
+  middle_ = depth(mid[0], mid[1], mid[2]);
+  along_ = scaled(p[0], p[1], p[2], 1);
+  across_ = scaled(v[0], v[1], v[2], 1);
   return true;
 }
 
 bool SpanForm::set(const ConvexShape& shape) {
-  reach = shape.reach;
+  reach_ = shape.reach;
   for (int i = 0; i < 3; ++i) {
-    origin[i] = shape.origin[i];
-    if (reach.high[i] - reach.low[i] > kFloatReach) return false;
+    origin_[i] = shape.origin[i];
+    if (reach_.high[i] - reach_.low[i] > kFloatReach) return false;
     // Curved shapes square their distances from the origin, which must not lie far away.
     if (shape.extent[i] > kFloatReach && (shape.kind == SolidKind::round || shape.kind == SolidKind::sphere)) return false;
   }
-  top_word = floor_div(reach.high[2] - 1, 32);
-  f_top = static_cast<float>(32 * (top_word + 1) - reach.high[2]);
-  f_bottom = static_cast<float>(32 * (top_word + 1) - reach.low[2]);
-  slabs = lowers = uppers = limits = 0;
-  upright = false;
-  quadric = Quadric::none;
+  top_word_ = floor_div(reach_.high[2] - 1, 32);
+  f_top_ = static_cast<float>(32 * (top_word_ + 1) - reach_.high[2]);
+  f_bottom_ = static_cast<float>(32 * (top_word_ + 1) - reach_.low[2]);
+  slabs_ = lowers_ = uppers_ = limits_ = 0;
+  upright_ = false;
+  quadric_ = Quadric::none;
   if (shape.kind == SolidKind::prism) {  // its caps are drawn as planes
     const double* n = shape.l[1];
     const double back[3] = {-n[0], -n[1], -n[2]};
@@ -180,19 +194,19 @@ void SpanForm::row_limits(std::int32_t first, float low[8], float high[8]) const
   for (int lane = 0; lane < 8; ++lane) {
     const double y = first + lane;
     double from = -kFar, to = kFar;
-    for (int i = 0; i < limits; ++i) {
-      const double rest = limit[i][2] - limit[i][1] * y;
-      if (std::abs(limit[i][0]) * kFar <= 1e-6 * std::abs(limit[i][1])) {  // along x: takes all of a row or none
+    for (int i = 0; i < limits_; ++i) {
+      const double rest = limit_[i][2] - limit_[i][1] * y;
+      if (std::abs(limit_[i][0]) * kFar <= 1e-6 * std::abs(limit_[i][1])) {  // along x: takes all of a row or none
         if (!(rest > 0)) to = -kFar;
-      } else if (limit[i][0] > 0) {
-        to = std::min(to, rest / limit[i][0]);
+      } else if (limit_[i][0] > 0) {
+        to = std::min(to, rest / limit_[i][0]);
       } else {
-        from = std::max(from, rest / limit[i][0]);
+        from = std::max(from, rest / limit_[i][0]);
       }
     }
-    if (upright) {
-      const double away = ellipse[2] * y + ellipse[3], square = ellipse[4] - away * away;
-      const double middle_x = -(ellipse[0] * y + ellipse[1]), half = square > 0 ? std::sqrt(square) : -1;
+    if (upright_) {
+      const double away = ellipse_[2] * y + ellipse_[3], square = ellipse_[4] - away * away;
+      const double middle_x = -(ellipse_[0] * y + ellipse_[1]), half = square > 0 ? std::sqrt(square) : -1;
       from = std::max(from, middle_x - half);
       to = std::min(to, middle_x + half);
     }

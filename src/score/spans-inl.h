@@ -38,10 +38,11 @@ struct SlabRow {
   LinearRow slab[kSlabs];
   F8 width[kSlabs];
 
-  HWY_INLINE void set(const SpanForm& form, const F8& y) {
+  template <class Form>
+  HWY_INLINE void set(const Form& form, const F8& y) {
     for (int s = 0; s < kSlabs; ++s) {
-      slab[s].set(form.slab[s], y);
-      width[s] = F8::all(form.width[s]);
+      slab[s].set(form.slab(s), y);
+      width[s] = F8::all(form.width(s));
     }
   }
   HWY_INLINE Span at(const F8& x) const {
@@ -61,10 +62,11 @@ struct PlaneRow {
   LinearRow plane[Solid::kMostPlanes + 2];
   int lowers, all;
 
-  HWY_INLINE void set(const SpanForm& form, const F8& y) {
-    lowers = form.lowers;
-    all = form.lowers + form.uppers;
-    for (int i = 0; i < all; ++i) plane[i].set(form.plane[i], y);
+  template <class Form>
+  HWY_INLINE void set(const Form& form, const F8& y) {
+    lowers = form.lowers();
+    all = form.lowers() + form.uppers();
+    for (int i = 0; i < all; ++i) plane[i].set(form.plane(i), y);
   }
   HWY_INLINE Span at(const F8& x) const {
     Span span{F8::all(kNever), F8::all(-kNever)};
@@ -78,42 +80,41 @@ struct SphereRow {
   LinearRow middle, across;
   F8 rest;
 
-  HWY_INLINE void set(const SpanForm& form, const F8& y) {
-    middle.set(form.middle, y);
-    across.set(form.across, y);
-    const F8 side = F8::all(form.side.b) * y + F8::all(form.side.c);
-    rest = F8::all(form.most) - side * side;
+  template <class Form>
+  HWY_INLINE void set(const Form& form, const F8& y) {
+    middle.set(form.middle(), y);
+    across.set(form.across(), y);
+    const F8 side = F8::all(form.side().b) * y + F8::all(form.side().c);
+    rest = F8::all(form.most()) - side * side;
   }
   HWY_INLINE Span at(const F8& x) const {
     const F8 m = middle.at(x), v = across.at(x);
-    const F8 square = rest - v * v;
-    const F8 h = square_root(larger(square, F8::all(0)));
-    return {m + h, where_not_negative(square, m - h, F8::all(kNever))};
+    const F8 h = square_root(larger(rest - v * v, F8::all(0)));  // 0 beside the sphere: an empty span
+    return {m + h, m - h};
   }
 };
 
-/// Cylinders and cones between their caps. A form without slab gets one that bounds nothing.
+/// Cylinders and cones between their caps.
 template <Quadric kQuadric>
 struct RoundRow {
   LinearRow middle, along, across, slab;
   F8 width;
 
-  HWY_INLINE void set(const SpanForm& form, const F8& y) {
-    middle.set(form.middle, y);
-    along.set(form.along, y);
-    across.set(form.across, y);
-    const bool capped = form.slabs > 0;
-    slab.set(capped ? form.slab[0] : LinearForm{0, 0, form.f_bottom}, y);
-    width = F8::all(capped ? form.width[0] : form.f_bottom - form.f_top);
+  template <class Form>
+  HWY_INLINE void set(const Form& form, const F8& y) {
+    middle.set(form.middle(), y);
+    along.set(form.along(), y);
+    across.set(form.across(), y);
+    slab.set(form.slab(0), y);
+    width = F8::all(form.width(0));
   }
   HWY_INLINE Span at(const F8& x) const {
     const F8 m = middle.at(x), p = along.at(x), v = across.at(x), low = slab.at(x);
     Span span{low, low - width};
     if constexpr (kQuadric == Quadric::lens) {
-      const F8 square = p * p - v * v;
-      const F8 h = square_root(larger(square, F8::all(0)));
+      const F8 h = square_root(larger(p * p - v * v, F8::all(0)));  // 0 beside the cone: an empty span
       span.low = smaller(span.low, m + h);
-      span.high = larger(span.high, where_not_negative(square, m - h, F8::all(kNever)));
+      span.high = larger(span.high, m - h);
     } else {
       const F8 h = square_root(p * p + v * v);
       if constexpr (kQuadric == Quadric::up) span.low = smaller(span.low, m - h);
@@ -127,7 +128,8 @@ struct RoundRow {
 struct LimitRow {
   F8 low, high;
 
-  HWY_INLINE void set(const SpanForm& form, std::int32_t first) {
+  template <class Form>
+  HWY_INLINE void set(const Form& form, std::int32_t first) {
     alignas(32) float from[8], to[8];
     form.row_limits(first, from, to);
     low = F8::load(from);

@@ -9,28 +9,31 @@
 #endif
 
 #include <bit>
-#include <cstring>
 
 #include "score/eight-inl.h"
+#include "score/voxel_canvas.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace espalier {
 namespace HWY_NAMESPACE {
 
+using Words = hn::Vec<WordTag>;
+
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
 using ByteTag = hn::Repartition<std::uint8_t, WordTag>;
 using SumTag = hn::Repartition<std::uint64_t, WordTag>;
 
-/// Running count of set bits: per byte for up to 31 additions, then in 64 bits.
+/// Set bits of up to 31 registers, and a running sum of such.
 class BitSum {
  public:
-  HWY_INLINE BitSum() {  // written out: the implicit one would not be compiled for the target
+  HWY_INLINE BitSum() {  // written out: implicit constructors are not compiled for the target
     bytes_ = hn::Zero(ByteTag());
     sums_ = hn::Zero(SumTag());
   }
-  HWY_INLINE void add(const hn::Vec<WordTag>& words) {
+  HWY_INLINE void add(const Words& words) {
     bytes_ = hn::Add(bytes_, hn::PopulationCount(hn::BitCast(ByteTag(), words)));
   }
+  /// At least after every 31 additions.
   HWY_INLINE void flush() {
     sums_ = hn::Add(sums_, hn::SumsOf8(bytes_));
     bytes_ = hn::Zero(ByteTag());
@@ -44,7 +47,8 @@ class BitSum {
 #else
 class BitSum {
  public:
-  HWY_INLINE void add(const hn::Vec<WordTag>& words) {
+  HWY_INLINE BitSum() : sum_(0) {}
+  HWY_INLINE void add(const Words& words) {
     alignas(32) std::uint32_t lane[8];
     hn::Store(words, WordTag(), lane);
     for (std::size_t i = 0; i < kStep; ++i) sum_ += static_cast<std::uint64_t>(std::popcount(lane[i]));
@@ -53,19 +57,31 @@ class BitSum {
   HWY_INLINE std::uint64_t total() const { return sum_; }
 
  private:
-  std::uint64_t sum_ = 0;
+  std::uint64_t sum_;
 };
 #endif
 
-/// Bits of a & b over n words; n is a multiple of 8.
-HWY_INLINE std::uint64_t count_common(const std::uint32_t* a, const std::uint32_t* b, std::size_t n) {
-  BitSum sum;
-  for (std::size_t i = 0; i < n;) {
-    const std::size_t end = i + 30 * kStep < n ? i + 30 * kStep : n;
-    for (; i < end; i += kStep) sum.add(hn::And(hn::Load(WordTag(), a + i), hn::Load(WordTag(), b + i)));
-    sum.flush();
+/// Bits of a & b over the tiles of one block.
+HWY_INLINE void add_common(const std::uint32_t* a, const std::uint32_t* b, std::size_t words, BitSum& sum) {
+  for (std::size_t i = 0; i < words; i += kStep) {
+    sum.add(hn::And(hn::Load(WordTag(), a + i), hn::Load(WordTag(), b + i)));
   }
-  return sum.total();
+  sum.flush();
+}
+
+/// Bits over the tiles of one block, which are cleared.
+HWY_INLINE void add_and_clear(std::uint32_t* a, std::size_t words, BitSum& sum) {
+  for (std::size_t i = 0; i < words; i += kStep) {
+    sum.add(hn::Load(WordTag(), a + i));
+    hn::Store(hn::Zero(WordTag()), WordTag(), a + i);
+  }
+  sum.flush();
+}
+
+HWY_INLINE bool any_set(const std::uint32_t* a, std::size_t words) {
+  Words all = hn::Zero(WordTag());
+  for (std::size_t i = 0; i < words; i += kStep) all = hn::Or(all, hn::Load(WordTag(), a + i));
+  return !hn::AllTrue(WordTag(), hn::Eq(all, hn::Zero(WordTag())));
 }
 
 struct SweepSums {
@@ -73,24 +89,13 @@ struct SweepSums {
   HWY_INLINE SweepSums() {}
 };
 
-/// Adds up one stretch of a tile row and clears it.
-HWY_INLINE void sweep_row(std::uint32_t* once, std::uint32_t* twice, const std::uint32_t* target, std::size_t n,
-                          SweepSums& sums) {
-  const auto zero = hn::Zero(WordTag());
-  for (std::size_t i = 0; i < n;) {
-    const std::size_t end = i + 30 * kStep < n ? i + 30 * kStep : n;
-    for (; i < end; i += kStep) {
-      const auto one = hn::Load(WordTag(), once + i);
-      sums.covered.add(one);
-      sums.wanted.add(hn::And(one, hn::Load(WordTag(), target + i)));
-      sums.overlap.add(hn::Load(WordTag(), twice + i));
-      hn::Store(zero, WordTag(), once + i);
-      hn::Store(zero, WordTag(), twice + i);
-    }
-    sums.covered.flush();
-    sums.wanted.flush();
-    sums.overlap.flush();
-  }
+/// One block of kBlockTiles tiles (fewer at the end of a row): counts and clears it.
+template <class Count>
+HWY_INLINE void sweep_block(std::uint32_t* once, std::uint32_t* twice, const std::uint32_t* target, bool in_target,
+                            Count words, SweepSums& sums) {
+  if (in_target) add_common(once, target, words, sums.wanted);
+  add_and_clear(once, words, sums.covered);
+  if (any_set(twice, words)) add_and_clear(twice, words, sums.overlap);
 }
 
 }  // namespace HWY_NAMESPACE

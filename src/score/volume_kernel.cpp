@@ -10,6 +10,10 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
+#include <bit>
+#include <type_traits>
+
 #include "base/check.h"
 #include "score/parts-inl.h"
 #include "score/sweep-inl.h"
@@ -21,31 +25,34 @@ namespace HWY_NAMESPACE {
 
 void draw_model(const std::vector<Solid>& solids, std::span<const Instance> instances, VolumeView view,
                 VolumeScratch& scratch) {
-  for (const Instance& instance : instances) {
-    if (!shows(view, instance)) continue;
-    DCHECK(instance.mesh < solids.size());
-    draw_part(solids[instance.mesh], instance, scratch);
-  }
+  draw_parts(solids, instances, view, scratch);
 }
 
-/// counts.inside has one entry per target.
-void sweep_model(const std::vector<BitGrid>& targets, const BitGrid& all, VolumeScratch& scratch,
-                 VolumeCounts& counts) {
+/// `used` has one bit per block of the union of the targets that is not empty; counts.inside one entry per target.
+void sweep_model(const std::vector<BitGrid>& targets, const BitGrid& all, const std::vector<std::uint64_t>& used,
+                 VolumeScratch& scratch, VolumeCounts& counts) {
   VoxelCanvas& canvas = scratch.canvas;
+  constexpr std::integral_constant<std::size_t, kBlockTiles * 8> kWords;
+  const std::size_t row_words = std::size_t{canvas.nx()} * 8;
   SweepSums sums;
-  for (std::int32_t tile = 0; tile < canvas.tile_rows(); ++tile) {
-    for (std::int32_t word = 0; word < canvas.depth(); ++word) {
-      DirtyRange& range = canvas.range(tile, word);
-      if (range.empty()) continue;
-      const std::size_t row = canvas.row_offset(tile, word) + static_cast<std::size_t>(range.low) * 8;
-      const std::size_t n = static_cast<std::size_t>(range.high - range.low) * 8;
-      if (targets.size() > 1) {
-        for (std::size_t i = 0; i < targets.size(); ++i) {
-          counts.inside[i] += count_common(canvas.once.data() + row, targets[i].data() + row, n);
-        }
+  for (std::size_t d = 0; d < canvas.dirty.size(); ++d) {
+    const std::size_t row = d / canvas.dirty_words * row_words;
+    std::uint64_t bits = canvas.dirty[d];
+    canvas.dirty[d] = 0;
+    for (; bits != 0; bits &= bits - 1) {
+      const int bit = std::countr_zero(bits);
+      const std::size_t in_row = (d % canvas.dirty_words * 64 + static_cast<std::size_t>(bit)) * kWords;
+      const std::size_t at = row + in_row;
+      const std::size_t words = std::min<std::size_t>(kWords, row_words - in_row);
+      std::uint32_t* once = canvas.once.data() + at;
+      for (std::size_t i = 0; targets.size() > 1 && i < targets.size(); ++i) {
+        BitSum inside;
+        add_common(once, targets[i].data() + at, words, inside);
+        counts.inside[i] += inside.total();
       }
-      sweep_row(canvas.once.data() + row, canvas.twice.data() + row, all.data() + row, n, sums);
-      range = DirtyRange();
+      const bool in_target = (used[d] >> bit & 1) != 0;
+      if (words == kWords) sweep_block(once, canvas.twice.data() + at, all.data() + at, in_target, kWords, sums);
+      else sweep_block(once, canvas.twice.data() + at, all.data() + at, in_target, words, sums);
     }
   }
   counts.covered = sums.covered.total();
@@ -70,6 +77,18 @@ VolumeKernel::VolumeKernel(const VoxelGrid& grid, std::vector<Solid> solids, std
     : grid_(grid), solids_(std::move(solids)), targets_(std::move(targets)),
       union_(grid.cells[0], grid.cells[1], grid.cells[2]) {
   for (const BitGrid& target : targets_) unite(union_, target);
+  VoxelCanvas canvas{Lattice(grid)};  // for its layout of dirty bits
+  for (std::uint32_t y = 0; y < grid.cells[1]; y += 8) {
+    for (std::uint32_t z = 0; z < grid.cells[2]; z += 32) {
+      for (std::uint32_t x = 0; x < grid.cells[0]; ++x) {
+        const std::uint32_t* tile = union_.data() + union_.word_index(x, y, z);
+        const bool any = std::any_of(tile, tile + 8, [](std::uint32_t word) { return word != 0; });
+        const auto at = static_cast<std::int32_t>(x);
+        if (any) canvas.mark(static_cast<std::int32_t>(y / 8), static_cast<std::int32_t>(z / 32), at, at + 1);
+      }
+    }
+  }
+  used_ = std::move(canvas.dirty);
 }
 
 void VolumeKernel::draw(std::span<const Instance> instances, VolumeView view, VolumeScratch& scratch) const {
@@ -79,7 +98,7 @@ void VolumeKernel::draw(std::span<const Instance> instances, VolumeView view, Vo
 
 void VolumeKernel::sweep(VolumeScratch& scratch, VolumeCounts& counts) const {
   counts.inside.assign(targets_.size(), 0);
-  HWY_DYNAMIC_DISPATCH(sweep_model)(targets_, union_, scratch, counts);
+  HWY_DYNAMIC_DISPATCH(sweep_model)(targets_, union_, used_, scratch, counts);
   counts.hits = scratch.canvas.hits;
   counts.outside = scratch.canvas.outside;
 }

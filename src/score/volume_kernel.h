@@ -58,6 +58,7 @@ class VolumeKernel {
   std::vector<Solid> solids_;
   std::vector<BitGrid> targets_;
   BitGrid union_;
+  std::vector<std::uint64_t> used_;  // blocks in which union_ has bits, laid out like VoxelCanvas::dirty
 };
 
 /// For tests: the instruction sets that this machine can run the kernel with, best first, and a way to insist on one
