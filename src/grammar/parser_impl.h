@@ -82,6 +82,7 @@ class Parser {
   std::optional<ast::Axis> accept_axis();
   bool at_statement() const;
   bool at_declaration_only() const;
+  bool at_new_line() const;
   void recover();
   [[noreturn]] void fail_statement();
 

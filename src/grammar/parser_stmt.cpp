@@ -48,10 +48,17 @@ void Parser::statement_into(ast::Block& block) {
   }
 }
 
+/// A word that begins a line and may be a statement misspelt.
+bool Parser::at_new_line() const {
+  if (peek().kind != TokenKind::word || at_ == 0 || tokens_[at_ - 1].span.line == peek().span.line) return false;
+  constexpr std::string_view kJoins[] = {"and", "or", "mod", "by", "as", "at", "toward", "in", "else", "otherwise"};
+  return std::find(std::begin(kJoins), std::end(kJoins), peek().text) == std::end(kJoins);
+}
+
 /// To the next statement, the `}` of the block that is open, or a declaration. A block whose head was wrong is still read
 /// for its own faults, with the `else` blocks behind it.
 void Parser::recover() {
-  while (!at_end() && !at("}") && !at_statement() && !at_declaration_only()) take();
+  while (!at_end() && !at("}") && !at_statement() && !at_new_line() && !at_declaration_only()) take();
   while (at("{")) {
     block("a block");
     if (!accept("else")) return;

@@ -79,7 +79,7 @@ TEST(Checker, TellsWhatIsReachable) {
 
 TEST(Checker, LetsDetailsUseWhatIsDynamic) {
   const Checked checked = check_text(
-      "attr n = 3 rule A { k ~ uniform(1, 2) detail D(k) } "
+      "attr n = 3 rule A { start_k ~ uniform(1, 2) detail D(start_k) } "
       "detail D(k) { m ~ integer(0, k * n) for i in 0..m { for j in [i, m] { c ~ chance(k / 2) if c { move x j emit box } } } "
       "choose { k: { u ~ normal(k, k, -k, k) size u } m: { if depth > n { emit leaf } } } around y m { emit box } }");
   EXPECT_TRUE(checked.grammar) << render(checked.diagnostics, "", "");
@@ -88,7 +88,7 @@ TEST(Checker, LetsDetailsUseWhatIsDynamic) {
 
 const char* const kAttributes =
     "attr tall in 0.5..4 = 1.6 attr lean in 0deg..90deg by 5deg = 10deg attr open = false attr free = 3 "
-    "rule A { size tall * free turn y lean if open { emit box } }";
+    "rule A { size tall move x free turn y lean if open { emit box } }";
 
 TEST(Checker, OverridesAttributes) {
   const Checked checked = check_text(kAttributes, {{"tall", "200cm"}, {"lean", "45deg"}, {"open", "true"}, {"free", "-1e3"}});
@@ -172,9 +172,9 @@ TEST(Checker, WarnsOfManyGenesBehindAGuard) {
 
 TEST(Checker, CountsDepthPerRuleInTheExpectedSize) {
   // Only every other gene is a B, so the guard on depth(B) lets the tree grow twice as deep.
-  EXPECT_THAT(check_text("rule A { spawn B } rule B when depth(B) < 10 { emit box spawn C spawn C } "
+  EXPECT_THAT(check_text("rule A { spawn B } rule B when depth(B) < 9 { emit box spawn C spawn C } "
                          "rule C { spawn B spawn B }").codes(), IsEmpty());
-  EXPECT_THAT(check_text("rule A { spawn B } rule B when depth(B) < 11 { emit box spawn C spawn C } "
+  EXPECT_THAT(check_text("rule A { spawn B } rule B when depth(B) < 10 { emit box spawn C spawn C } "
                          "rule C { spawn B spawn B }").codes(), ElementsAre("W0803"));
 }
 
@@ -183,7 +183,8 @@ TEST(Checker, LetsLimitsBoundTheExpectedSize) {
 }
 
 TEST(Checker, KnowsThatAbsentSlotsEndRequiredRecursion) {
-  EXPECT_THAT(check_text("rule A { spawn B } rule B when depth < 9 { emit box spawn C } rule C { spawn B }").codes(), IsEmpty());
+  EXPECT_THAT(check_text("rule A { spawn B } rule B when depth < 9 { emit box spawn C } rule C { spawn B }").codes(),
+              IsEmpty());
   EXPECT_THAT(check_text("rule A { spawn B } rule B when depth > 0 { emit box spawn C } rule C { spawn B }").codes(),
               ElementsAre("E0801"));
 }
