@@ -54,36 +54,29 @@ struct PartFrame {
   }
 };
 
-/// Puts the spans [high, low) of eight rows at one x into every word of the grid that they may touch.
-template <bool kOneWord>
-HWY_INLINE void put_spans(const I8& high, const I8& low, const PartFrame& part, std::size_t row, std::size_t word_stride,
-                          VoxelCanvas& canvas) {
-  std::uint32_t* once = canvas.once.data() + row;
-  std::uint32_t* twice = canvas.twice.data() + row;
-  if constexpr (kOneWord) {  // first_word == last_word == top_word
-    put(low_bits_but(high) ^ low_bits_but(low), once, twice);
-  } else {
-    for (std::int32_t word = part.last_word; word >= part.first_word; --word) {
-      const I8 skip = I8::all(32 * (part.top_word - word)), zero = I8::all(0);
-      const U8 mask = low_bits_but(larger(high - skip, zero)) ^ low_bits_but(larger(low - skip, zero));
-      const std::size_t at = static_cast<std::size_t>(word - part.first_word) * word_stride;
-      put(mask, once + at, twice + at);
-    }
-  }
+/// The bits of word `words_down` words below the part's top word that the spans [high, low) cover.
+HWY_INLINE U8 bits_of(const I8& high, const I8& low, std::int32_t words_down) {
+  const I8 skip = I8::all(32 * words_down), zero = I8::all(0);
+  return low_bits_but(larger(high - skip, zero)) ^ low_bits_but(larger(low - skip, zero));
 }
 
-/// A tile row of a part inside the grid, x in [from, to). Returns the voxels per lane.
-template <bool kOneWord, class Spans>
-HWY_INLINE I8 draw_row_inside(const PartFrame& part, VoxelCanvas& canvas, std::int32_t tile, std::int32_t from,
-                              std::int32_t to, Spans& spans) {
-  std::size_t row = canvas.row_offset(tile, part.first_word) + static_cast<std::size_t>(from) * 8;
-  const std::size_t stride = std::size_t{canvas.nx()} * 8;
+/// A tile row of a part inside the grid: `count` tiles from `once` and `twice` on, which point into the row of the top
+/// word; the part's other words lie `stride` lower each. kWords = 0: any number. Returns the voxels per lane.
+template <int kWords, class Spans>
+HWY_INLINE I8 draw_row_inside(std::uint32_t* HWY_RESTRICT once, std::uint32_t* HWY_RESTRICT twice, std::int32_t count,
+                              std::ptrdiff_t stride, std::int32_t words, Spans& spans) {
   I8 sum = I8::all(0);
-  for (std::int32_t x = from; x < to; ++x, row += 8) {
+  for (const std::uint32_t* end = once + std::ptrdiff_t{count} * 8; once != end; once += 8, twice += 8) {
     I8 high, low;
     spans.next(high, low);
-    sum = sum + (low - high);
-    put_spans<kOneWord>(high, low, part, row, stride, canvas);
+    sum = sum - high + low;
+    put(low_bits_but(high) ^ low_bits_but(low), once, twice);
+    if constexpr (kWords == 2) put(bits_of(high, low, 1), once - stride, twice - stride);
+    if constexpr (kWords == 0) {
+      for (std::int32_t word = 1; word < words; ++word) {
+        put(bits_of(high, low, word), once - word * stride, twice - word * stride);
+      }
+    }
   }
   return sum;
 }
@@ -108,7 +101,10 @@ HWY_INLINE void draw_row_counting(const PartFrame& part, VoxelCanvas& canvas, st
     high = larger(high, grid_high);
     low = larger(smaller(low, grid_low), high);
     len_grid = len_grid + (low - high);
-    put_spans<false>(high, low, part, start + static_cast<std::size_t>(x) * 8, stride, canvas);
+    std::size_t at = start + static_cast<std::size_t>(x) * 8;
+    for (std::int32_t word = part.first_word; word <= part.last_word; ++word, at += stride) {
+      put(bits_of(high, low, part.top_word - word), canvas.once.data() + at, canvas.twice.data() + at);
+    }
   }
   canvas.hits += sum_of(len_grid);
   canvas.outside += sum_of(len_window) - sum_of(len_grid);
@@ -158,26 +154,34 @@ HWY_INLINE void narrow(const Form& form, std::int32_t tile, std::int32_t& from, 
 }
 
 template <class Row, bool kLimited, class Form>
+HWY_NOINLINE void draw_leaving(const Form& form, VoxelCanvas& canvas) {
+  const PartFrame part(form.reach(), canvas);
+  for (std::int32_t tile = tile_of(part.reach.low[1]); tile <= tile_of(part.reach.high[1] - 1); ++tile) {
+    FormSpans<Row, kLimited> spans(form, tile, part.reach.low[0]);
+    draw_row_counting(part, canvas, tile, spans);
+  }
+}
+
+template <class Row, bool kLimited, class Form>
 HWY_NOINLINE void draw_form(const Form& form, VoxelCanvas& canvas) {
   const Reach& reach = form.reach();
-  const PartFrame part(reach, canvas);
-  const std::int32_t last = tile_of(reach.high[1] - 1);
-  if (!reach.inside(canvas.lattice)) {
-    for (std::int32_t tile = tile_of(reach.low[1]); tile <= last; ++tile) {
-      FormSpans<Row, kLimited> spans(form, tile, reach.low[0]);
-      draw_row_counting(part, canvas, tile, spans);
-    }
-    return;
-  }
+  if (!reach.inside(canvas.lattice)) return draw_leaving<Row, kLimited>(form, canvas);
+  const std::int32_t first_word = reach.low[2] >> 5, last_word = (reach.high[2] - 1) >> 5;
+  const std::int32_t words = last_word - first_word + 1;
+  const auto stride = static_cast<std::ptrdiff_t>(canvas.nx()) * 8;
   I8 sum = I8::all(0);
-  for (std::int32_t tile = tile_of(reach.low[1]); tile <= last; ++tile) {
+  for (std::int32_t tile = tile_of(reach.low[1]); tile <= tile_of(reach.high[1] - 1); ++tile) {
     std::int32_t from, to;
     narrow(form, tile, from, to);
     if (from >= to) continue;
-    part.mark(canvas, tile, from, to);
+    for (std::int32_t word = first_word; word <= last_word; ++word) canvas.mark(tile, word, from, to);
     FormSpans<Row, kLimited> spans(form, tile, from);
-    sum = sum + (part.first_word == part.top_word ? draw_row_inside<true>(part, canvas, tile, from, to, spans)
-                                                  : draw_row_inside<false>(part, canvas, tile, from, to, spans));
+    const std::size_t at = canvas.row_offset(tile, last_word) + static_cast<std::size_t>(from) * 8;
+    std::uint32_t* once = canvas.once.data() + at;
+    std::uint32_t* twice = canvas.twice.data() + at;
+    if (words == 1) sum = sum + draw_row_inside<1>(once, twice, to - from, stride, 1, spans);
+    else if (words == 2) sum = sum + draw_row_inside<2>(once, twice, to - from, stride, 2, spans);
+    else sum = sum + draw_row_inside<0>(once, twice, to - from, stride, words, spans);
   }
   canvas.hits += sum_of(sum);
 }

@@ -152,11 +152,8 @@ HWY_INLINE I8 to_int(const U8& bits) {
 
 /// 0, 1, .. 7 plus `first`.
 HWY_INLINE F8 lanes_from(float first) {
-  F8 r;
-  for (std::size_t i = 0; i < r.kBlocks; ++i) {
-    r.block[i] = hn::Iota(FloatTag(), first + static_cast<float>(i * kStep));
-  }
-  return r;
+  alignas(32) static constexpr float kLane[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+  return F8::load(kLane) + F8::all(first);
 }
 
 HWY_INLINE std::uint64_t sum_of(const I8& a) {

@@ -37,6 +37,10 @@ struct VoxelCanvas {
   void mark(std::int32_t tile_row, std::int32_t word, std::int32_t from, std::int32_t to) {
     std::uint64_t* row = dirty_row(tile_row, word);
     const std::int32_t first = from / kBlockTiles, last = (to - 1) / kBlockTiles;
+    if (dirty_words == 1) {
+      *row |= ~0ull >> (63 - last) & ~0ull << first;
+      return;
+    }
     for (std::int32_t i = first >> 6; i <= last >> 6; ++i) {
       const std::uint64_t below = i == last >> 6 ? ~0ull >> (63 - (last & 63)) : ~0ull;
       row[i] |= below & (i == first >> 6 ? ~0ull << (first & 63) : ~0ull);
