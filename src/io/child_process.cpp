@@ -113,7 +113,8 @@ std::string run_in_child(const std::function<std::string()>& work, const ChildLi
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
     throw Error(fmt::format("it takes longer than {} s to read", limits.most_seconds));
   }
-  if (WIFSIGNALED(status)) throw Error(fmt::format("the file is damaged (reading it ended in: {})", ::strsignal(WTERMSIG(status))));
+  if (WIFSIGNALED(status))
+    throw Error(fmt::format("the file is damaged (reading it ended in: {})", ::strsignal(WTERMSIG(status))));
   if (bytes.empty()) throw Error("the file is damaged (nothing came of reading it)");
   if (bytes[0] == kError) throw Error(bytes.substr(1));
   return bytes.substr(1);

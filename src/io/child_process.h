@@ -13,7 +13,8 @@ struct ChildLimits {
   unsigned most_seconds = 300;
 };
 
-/// The bytes that `work` returns. Throws the Error that `work` throws (its message), or one that says how the child died.
+/// The bytes that `work` returns. Throws the Error that `work` throws (its message), or one that says how the child
+/// died.
 std::string run_in_child(const std::function<std::string()>& work, const ChildLimits& limits);
 
 }  // namespace espalier

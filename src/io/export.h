@@ -1,6 +1,6 @@
 #pragma once
-// Writing models. The format follows the file name: .glb, .obj (with .mtl beside it), .ply, .stl. Only what `full` or `parts`
-// shows is written. Files are written to a temporary name in the same folder and renamed when whole.
+// Writing models. The format follows the file name: .glb, .obj (with .mtl beside it), .ply, .stl. Only what `full` or
+// `parts` shows is written. Files are written to a temporary name in the same folder and renamed when whole.
 
 #include <string>
 
@@ -14,7 +14,8 @@ struct ExportOptions {
   bool gpu_instancing = false;     // GLB: EXT_mesh_gpu_instancing, as required extension
 };
 
-/// Throws Error naming the file (unknown ending, unwritable folder, full disk); then the old file, if any, is untouched.
+/// Throws Error naming the file (unknown ending, unwritable folder, full disk); then the old file, if any, is
+/// untouched.
 void export_model(const std::string& path, const Model& model, const MeshTable& meshes,
                   const std::vector<Material>& materials, const Provenance& provenance,
                   const ExportOptions& options = {});

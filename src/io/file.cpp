@@ -85,7 +85,9 @@ void write_special(const std::string& path, std::string_view bytes) {
 }  // namespace
 
 std::string read_file(const std::string& path, std::uint64_t most_bytes) {
-  const auto fail = [&](const std::string& why) -> Error { return Error(fmt::format("{}: cannot read: {}", path, why)); };
+  const auto fail = [&](const std::string& why) -> Error {
+    return Error(fmt::format("{}: cannot read: {}", path, why));
+  };
   // Non-blocking, so that a pipe without a writer does not hang us before we can refuse it.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.get() < 0) throw fail(reason(errno));

@@ -72,9 +72,9 @@ std::string GlbBuffer::finish(TextBuffer& json) const {
   }
   json << "\"accessors\":[";
   for (const Accessor& a : accessors_) {
-    json << (&a == accessors_.data() ? "" : ",") << "{\"bufferView\":" << number[a.view] << ",\"byteOffset\":" << a.offset
-         << ",\"componentType\":" << kViewFacts[a.view].component << ",\"count\":" << a.count << ",\"type\":\""
-         << kViewFacts[a.view].type << "\"";
+    json << (&a == accessors_.data() ? "" : ",") << "{\"bufferView\":" << number[a.view]
+         << ",\"byteOffset\":" << a.offset << ",\"componentType\":" << kViewFacts[a.view].component
+         << ",\"count\":" << a.count << ",\"type\":\"" << kViewFacts[a.view].type << "\"";
     if (a.range) {
       (json << ",\"min\":[").vector(a.range->min, ",") << "]";
       (json << ",\"max\":[").vector(a.range->max, ",") << "]";

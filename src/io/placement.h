@@ -1,6 +1,6 @@
 #pragma once
-// Placement: translation, rotation and scale of a node. glTF allows no other transform of a node, so a frame that shears
-// has none.
+// Placement: translation, rotation and scale of a node. glTF allows no other transform of a node, so a frame that
+// shears has none.
 
 #include <array>
 #include <optional>
@@ -15,8 +15,8 @@ struct Placement {
   Vec3 scale{1};                              // mirrored frames: x negative
 };
 
-/// The placement that equals `frame` to about 3e-5 of the part's size for shapes in `shape_box`; none if the frame shears, or is
-/// flat where the shape is not. Along an axis where the shape itself is flat the frame does not matter.
+/// The placement that equals `frame` to about 3e-5 of the part's size for shapes in `shape_box`; none if the frame
+/// shears, or is flat where the shape is not. Along an axis where the shape itself is flat the frame does not matter.
 std::optional<Placement> find_placement(const Frame& frame, const Bounds& shape_box);
 
 }  // namespace espalier

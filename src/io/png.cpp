@@ -45,7 +45,11 @@ std::uint64_t filter_row(int kind, const std::uint8_t* row, const std::uint8_t* 
   std::uint64_t cost = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const int left = i < 3 ? 0 : row[i - 3], up = above[i], corner = i < 3 ? 0 : above[i - 3];
-    const int guess = kind == 1 ? left : kind == 2 ? up : kind == 3 ? (left + up) / 2 : kind == 4 ? paeth(left, up, corner) : 0;
+    const int guess = kind == 1   ? left
+                      : kind == 2 ? up
+                      : kind == 3 ? (left + up) / 2
+                      : kind == 4 ? paeth(left, up, corner)
+                                  : 0;
     out[i] = static_cast<std::uint8_t>(row[i] - guess);
     cost += static_cast<std::uint64_t>(std::abs(static_cast<std::int8_t>(out[i])));
   }

@@ -141,8 +141,8 @@ Provenance read_provenance(const std::string& path) {
   } catch (const Error& e) {
     throw Error(fmt::format("{}: {}", path, e.what()));
   }
-  throw Error(fmt::format("{}: holds no provenance; Espalier writes it into its GLB, OBJ, MTL, PLY, STL, PNG and JSON files",
-                          path));
+  throw Error(fmt::format(
+      "{}: holds no provenance; Espalier writes it into its GLB, OBJ, MTL, PLY, STL, PNG and JSON files", path));
 }
 
 }  // namespace espalier

@@ -1,8 +1,8 @@
 #pragma once
-// Provenance: where a file came from and how to make it again. Every GLB, OBJ, PLY, PNG and JSON that Espalier writes carries
-// one, as JSON: GLB in asset.extras.espalier, OBJ/MTL/PLY in a comment line "# espalier: {...}" (PLY: "comment espalier: {...}"),
-// STL in the 80-byte header as far as it fits ("espalier <version> <derivation hash>"), PNG in a tEXt chunk "espalier",
-// JSON documents in a member "provenance".
+// Provenance: where a file came from and how to make it again. Every GLB, OBJ, PLY, PNG and JSON that Espalier writes
+// carries one, as JSON: GLB in asset.extras.espalier, OBJ/MTL/PLY in a comment line "# espalier: {...}" (PLY: "comment
+// espalier: {...}"), STL in the 80-byte header as far as it fits ("espalier <version> <derivation hash>"), PNG in a
+// tEXt chunk "espalier", JSON documents in a member "provenance".
 
 #include <cstdint>
 #include <map>

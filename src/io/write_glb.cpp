@@ -152,7 +152,8 @@ class GlbWriter {
     if (empty) return pack_glb((json << "}").text(), "");
     json << ",\"nodes\":[{\"name\":" << name << ",\"children\":[1";
     for (std::uint32_t i = 2; i < nodes_.size(); ++i) json << "," << i;
-    json << "]}" << nodes_.text() << "],\"meshes\":[" << meshes_.text() << "],\"materials\":[" << materials_.text() << "],";
+    json << "]}" << nodes_.text() << "],\"meshes\":[" << meshes_.text() << "],\"materials\":[" << materials_.text()
+         << "],";
     const std::string bytes = buffer_.finish(json);
     return pack_glb((json << "}").text(), bytes);
   }
@@ -169,6 +170,8 @@ class GlbWriter {
 
 }  // namespace
 
-std::string write_glb(const WriterInput& input, bool gpu_instancing) { return GlbWriter(input, gpu_instancing).write(); }
+std::string write_glb(const WriterInput& input, bool gpu_instancing) {
+  return GlbWriter(input, gpu_instancing).write();
+}
 
 }  // namespace espalier

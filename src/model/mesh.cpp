@@ -8,7 +8,11 @@
 namespace espalier {
 namespace {
 
-/// Per position the index of the first position (in sorted order) with equal coordinates; -0 equals 0.
+/// Thinner than this share of the longest side counts as flat: exporters leave such noise on planes.
+constexpr double kFlatShare = 1e-6;
+
+}  // namespace
+
 std::vector<std::uint32_t> weld_by_position(const std::vector<Vec3>& positions) {
   std::vector<std::uint32_t> order(positions.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -26,11 +30,6 @@ std::vector<std::uint32_t> weld_by_position(const std::vector<Vec3>& positions) 
   }
   return welded;
 }
-
-/// Thinner than this share of the longest side counts as flat: exporters leave such noise on planes.
-constexpr double kFlatShare = 1e-6;
-
-}  // namespace
 
 Bounds bounds(const Mesh& mesh) {
   Bounds box;

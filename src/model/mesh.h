@@ -22,6 +22,9 @@ struct Mesh {
 
 Bounds bounds(const Mesh& mesh);
 
+/// Per position the index of one position that stands for all with equal coordinates (-0 equals 0).
+std::vector<std::uint32_t> weld_by_position(const std::vector<Vec3>& positions);
+
 /// Edges whose two directions are not used equally often once equal positions are welded; 0 = closed.
 std::size_t open_edges(const Mesh& mesh);
 

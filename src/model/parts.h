@@ -27,7 +27,8 @@ struct Parts {
   std::vector<Part> parts;    // in the model's order
 };
 
-/// The parts that `full` (else: parts) shows. Instances whose frame is not finite, or has no area to show, are left out.
+/// The parts that `full` (else: parts) shows. Instances whose frame is not finite, or has no area to show, are left
+/// out.
 Parts collect_parts(const Model& model, const MeshTable& meshes, bool full);
 
 /// The part's shape in model space: mirrored parts are turned inside out, so that triangles face outwards.

@@ -18,8 +18,8 @@ struct CirclePoint {
   double cos, sin;
 };
 
-/// The point i / n around the unit circle by the Taylor series on one octant, mirrored into the others: the same bits on
-/// every CPU (libm's double sine is not), and exactly symmetric where n is a multiple of 4.
+/// The point i / n around the unit circle by the Taylor series on one octant, mirrored into the others: the same bits
+/// on every CPU (libm's double sine is not), and exactly symmetric where n is a multiple of 4.
 CirclePoint circle_point(std::uint32_t i, std::uint32_t n) {
   const std::uint32_t eighths = 8 * i / n;
   const bool flipped = eighths % 2 == 1;  // odd octants are measured back from their end
@@ -120,7 +120,8 @@ void add_cap(Mesh& mesh, float y, float radius, std::uint32_t sides, bool up) {
   }
   // The angle runs from +x to +z, which is clockwise seen from above.
   for (std::uint32_t k = 2; k < sides; ++k) {
-    mesh.triangles.push_back(up ? Triangle{first, first + k, first + k - 1} : Triangle{first, first + k - 1, first + k});
+    mesh.triangles.push_back(up ? Triangle{first, first + k, first + k - 1}
+                                : Triangle{first, first + k - 1, first + k});
   }
 }
 

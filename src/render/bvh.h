@@ -1,6 +1,6 @@
 #pragma once
-// Bvh: a tree of boxes, four children to a node, over items of any kind (triangles in fours, parts one by one). Built by
-// binned surface area heuristic, serially, so that equal input gives an equal tree.
+// Bvh: a tree of boxes, four children to a node, over items of any kind (triangles in fours, parts one by one). Built
+// by binned surface area heuristic, serially, so that equal input gives an equal tree.
 
 #include <array>
 #include <cstdint>

@@ -38,7 +38,8 @@ void fill(Picture& sheet, std::uint32_t x, std::uint32_t y, std::uint32_t width,
           const std::uint8_t (&rgb)[3]) {
   for (std::uint32_t row = y; row < y + height; ++row) {
     for (std::uint32_t column = x; column < x + width; ++column) {
-      std::copy(rgb, rgb + 3, sheet.rgb.begin() + static_cast<std::ptrdiff_t>(3 * (column + std::size_t{sheet.width} * row)));
+      std::copy(rgb, rgb + 3,
+                sheet.rgb.begin() + static_cast<std::ptrdiff_t>(3 * (column + std::size_t{sheet.width} * row)));
     }
   }
 }
@@ -63,12 +64,14 @@ Picture contact_sheet(const std::vector<SheetCell>& cells, const std::string& ti
   Picture sheet{layout.width(), layout.height(), {}};
   sheet.rgb.resize(std::size_t{3} * sheet.width * sheet.height);
   fill(sheet, 0, 0, sheet.width, sheet.height, kPaper);
-  draw_text(sheet, kGap, (kTitle - 7 * kTitleScale) / 2, fit_text(title, (sheet.width - 2 * kGap) / (kCellWidth * kTitleScale)),
-            kTitleScale, kInk);
+  draw_text(sheet, kGap, (kTitle - 7 * kTitleScale) / 2,
+            fit_text(title, (sheet.width - 2 * kGap) / (kCellWidth * kTitleScale)), kTitleScale, kInk);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Picture& picture = cells[i].picture;
-    const auto column = static_cast<std::uint32_t>(i % layout.columns), row = static_cast<std::uint32_t>(i / layout.columns);
-    const std::uint32_t left = kGap + column * (layout.cell_width + kGap), top = kTitle + row * (layout.cell_height + kGap);
+    const auto column = static_cast<std::uint32_t>(i % layout.columns),
+               row = static_cast<std::uint32_t>(i / layout.columns);
+    const std::uint32_t left = kGap + column * (layout.cell_width + kGap),
+                        top = kTitle + row * (layout.cell_height + kGap);
     // Smaller pictures stand in the middle of their cell.
     const std::uint32_t x = left + (picture_width - picture.width) / 2, y = top + (picture_height - picture.height) / 2;
     fill(sheet, x - 1, y - 1, picture.width + 2, picture.height + 2, kFrame);

@@ -30,7 +30,8 @@ std::uint8_t developed(float linear) {
 bool is_plain(std::span<const Sample> samples) {
   const Sample& first = samples[0];
   for (const Sample& s : samples) {
-    if (s.layered || s.surface != first.surface || glm::dot(s.normal, first.normal) < 0.9f * glm::dot(first.normal, first.normal)) {
+    if (s.layered || s.surface != first.surface ||
+        glm::dot(s.normal, first.normal) < 0.9f * glm::dot(first.normal, first.normal)) {
       return false;
     }
     // A ghost's outline crosses the pixel.
@@ -114,7 +115,8 @@ Picture Film::develop(Executor& executor) const {
       const Pixel& p = at(x, y);
       const Vec3 base = p.clear < 0 ? p.extra : p.veil + p.clear * tone(p.albedo * p.light + p.extra);
       const Vec3 colour = ghost_edge(base, ghost_change(x, y));
-      for (int c = 0; c < 3; ++c) picture.rgb[3 * (x + width_ * row) + static_cast<std::size_t>(c)] = developed(colour[c]);
+      for (int c = 0; c < 3; ++c)
+        picture.rgb[3 * (x + width_ * row) + static_cast<std::size_t>(c)] = developed(colour[c]);
     }
   });
   return picture;

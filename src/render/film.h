@@ -29,7 +29,8 @@ Pixel develop_mixed(std::span<const Sample> samples);
 
 class Film {
  public:
-  Film(std::uint32_t width, std::uint32_t height) : width_(width), height_(height), pixels_(std::size_t{width} * height) {}
+  Film(std::uint32_t width, std::uint32_t height)
+      : width_(width), height_(height), pixels_(std::size_t{width} * height) {}
 
   Pixel& at(std::uint32_t x, std::uint32_t y) { return pixels_[x + std::size_t{width_} * y]; }
   const Pixel& at(std::uint32_t x, std::uint32_t y) const { return pixels_[x + std::size_t{width_} * y]; }

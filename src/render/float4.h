@@ -28,7 +28,9 @@ inline Float4 operator/(Float4 a, Float4 b) { return Float4(_mm_div_ps(a.v, b.v)
 inline Float4 smaller(Float4 a, Float4 b) { return Float4(_mm_min_ps(a.v, b.v)); }
 inline Float4 larger(Float4 a, Float4 b) { return Float4(_mm_max_ps(a.v, b.v)); }
 /// Bit k: a[k] <= b[k]; false where either is NaN.
-inline unsigned less_equal(Float4 a, Float4 b) { return static_cast<unsigned>(_mm_movemask_ps(_mm_cmple_ps(a.v, b.v))); }
+inline unsigned less_equal(Float4 a, Float4 b) {
+  return static_cast<unsigned>(_mm_movemask_ps(_mm_cmple_ps(a.v, b.v)));
+}
 
 #else
 

@@ -5,8 +5,8 @@
 
 namespace espalier {
 
-/// Veils the sample by the ghosts that the ray meets before `far` (the model or the ground). Where a ghost's face coincides
-/// with what lies behind, it fades in over a small depth, so that neither flickers through the other.
+/// Veils the sample by the ghosts that the ray meets before `far` (the model or the ground). Where a ghost's face
+/// coincides with what lies behind, it fades in over a small depth, so that neither flickers through the other.
 void add_ghosts(const Tracer& ghosts, const Ray& ray, float far, Sample& sample);
 
 /// The colour and strength of a ghost's drawn edge where the mean normals around a pixel differ by `change`.

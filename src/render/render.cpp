@@ -17,7 +17,8 @@ constexpr std::uint32_t kMostSamples = 256;
 /// The first samples of a pixel tell whether it sees one surface; only where it does not, the others follow.
 void trace_pixel(const Set& set, const Stage& stage, const Camera& camera, std::uint32_t x, std::uint32_t y,
                  const RenderSettings& settings, std::vector<Sample>& scratch, Pixel& out) {
-  const std::uint32_t all = std::clamp<std::uint32_t>(static_cast<std::uint32_t>(std::max(settings.samples, 1)), 1, kMostSamples);
+  const std::uint32_t all =
+      std::clamp<std::uint32_t>(static_cast<std::uint32_t>(std::max(settings.samples, 1)), 1, kMostSamples);
   const std::uint32_t few = std::min(all, std::max(2u, all / 4));
   const PixelSamples samples(x, y);
   scratch.clear();

@@ -1,7 +1,7 @@
 #pragma once
 // Sampling: where in a pixel, on a light and over a hemisphere the samples of a pixel go. Additive recurrences in the
-// generalised golden ratio (Roberts 2018): any few in a row are evenly spread. Pixels count on along the Morton curve, so
-// that neighbours complement each other and smoothing over them leaves little noise. Integers until the last step.
+// generalised golden ratio (Roberts 2018): any few in a row are evenly spread. Pixels count on along the Morton curve,
+// so that neighbours complement each other and smoothing over them leaves little noise. Integers until the last step.
 
 #include <cmath>
 #include <cstdint>

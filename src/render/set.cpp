@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "render/crease.h"
+
 namespace espalier {
 namespace {
 
@@ -38,7 +40,7 @@ class SetBuilder {
  public:
   SetBuilder(const Model& model, const MeshTable& table, const std::vector<Mesh>& ghosts, bool full)
       : parts_(collect_parts(model, table, full)) {
-    for (const Mesh& ghost : ghosts) ghosts_.push_back(with_normals(ghost));
+    for (const Mesh& ghost : ghosts) ghosts_.push_back(with_crease_normals(ghost));
     measure();
   }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Set: everything that a ray may meet, moved and scaled to unit size: the opaque and the translucent parts of a model, and the
-// ghosts.
+// Set: everything that a ray may meet, moved and scaled to unit size: the opaque and the translucent parts of a model,
+// and the ghosts.
 
 #include <memory>
 #include <vector>

@@ -77,7 +77,8 @@ TEST_P(ExportRoundTrip, FacesOutwardsInEveryPart) {
       const glm::dvec3 a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]);
       const glm::dvec3 across = glm::cross(b - a, c - a);
       if (mesh.normals.empty()) continue;
-      for (const std::uint32_t corner : t) EXPECT_GT(glm::dot(across, glm::dvec3(mesh.normals[corner])), 0) << instance.gene;
+      for (const std::uint32_t corner : t)
+        EXPECT_GT(glm::dot(across, glm::dvec3(mesh.normals[corner])), 0) << instance.gene;
     }
   }
 }
@@ -152,7 +153,8 @@ TEST(ExportGlb, SharesMeshesAndGivesEveryPartANode) {
   const TemporaryFolder folder;
   const std::string path = folder / "a.glb";
   Model model;
-  for (int i = 0; i < 10; ++i) model.instances.push_back(part(MeshKind::box, Vec3(i, 0, 0), scaling(i % 2 ? 1 : -1, 1, 2)));
+  for (int i = 0; i < 10; ++i)
+    model.instances.push_back(part(MeshKind::box, Vec3(i, 0, 0), scaling(i % 2 ? 1 : -1, 1, 2)));
   model.instances.push_back(part(MeshKind::box, Vec3(0), Mat3(1), 1));
   model.instances.push_back(part(MeshKind::quad, Vec3(0), scaling(1, 1, 0), 0));
   export_model(path, model, primitive_table(), two_materials(), test_provenance());
@@ -284,7 +286,8 @@ TEST(ExportObj, WritesBothFilesOrNeither) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "ship.mtl");  // so that the library cannot be written
   write_file(folder / "ship.obj", "old");
-  const std::string error = error_of([&] { export_model(folder / "ship.obj", mixed_model(), primitive_table(), {}, {}); });
+  const std::string error =
+      error_of([&] { export_model(folder / "ship.obj", mixed_model(), primitive_table(), {}, {}); });
   EXPECT_EQ(error, (folder / "ship.mtl") + ": cannot write: Is a directory");
   EXPECT_EQ(read_file(folder / "ship.obj"), "old");
   EXPECT_EQ(folder.file_count(), 2u);

@@ -1,7 +1,7 @@
 #include "io/image.h"
 
 #include <gtest/gtest.h>
-#include <stb_image.h>
+#include <stb/stb_image.h>
 
 #include "base/random.h"
 #include "io/file.h"

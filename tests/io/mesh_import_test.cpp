@@ -41,9 +41,10 @@ TEST_F(MeshImport, ReadsAPlainObj) {
 }
 
 TEST_F(MeshImport, FlattensGroupsPolygonsAndNormals) {
-  const Mesh mesh = source_.load(write("a.obj",
-                                       "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 2\nv 1 0 2\nv 1 1 2\n"
-                                       "vn 0 0 1\ng a\nusemtl red\nf 1//1 2//1 3//1 4//1\ng b\nf 5 6 7\nl 1 2\np 1\n"));
+  const Mesh mesh =
+      source_.load(write("a.obj",
+                         "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 2\nv 1 0 2\nv 1 1 2\n"
+                         "vn 0 0 1\ng a\nusemtl red\nf 1//1 2//1 3//1 4//1\ng b\nf 5 6 7\nl 1 2\np 1\n"));
   EXPECT_EQ(mesh.triangles.size(), 3u);
   EXPECT_EQ(mesh.positions.size(), 7u);
   ASSERT_EQ(mesh.normals.size(), 7u);
@@ -73,9 +74,12 @@ TEST_F(MeshImport, AppliesNodesAndTurnsMirroredOnesRightSideOut) {
 }
 
 TEST_F(MeshImport, NamesWhatIsWrong) {
-  EXPECT_NE(error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 nan\nf 1 2 3\n").find("a coordinate is not finite (nan)"), std::string::npos);
-  EXPECT_NE(error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1e39 0\nf 1 2 3\n").find("a coordinate is not finite (inf)"), std::string::npos);
-  EXPECT_NE(error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1e20 0\nf 1 2 3\n").find("coordinate 1e+20 is beyond"), std::string::npos);
+  EXPECT_NE(error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 nan\nf 1 2 3\n").find("a coordinate is not finite (nan)"),
+            std::string::npos);
+  EXPECT_NE(error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1e39 0\nf 1 2 3\n").find("a coordinate is not finite (inf)"),
+            std::string::npos);
+  EXPECT_NE(error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1e20 0\nf 1 2 3\n").find("coordinate 1e+20 is beyond"),
+            std::string::npos);
   EXPECT_NE(error("a.obj", "").find("the file is empty"), std::string::npos);
   EXPECT_NE(error("a.txt", kTetrahedron).find("the ending \".txt\" is unknown"), std::string::npos);
   EXPECT_NE(error("a", kTetrahedron).find("the ending \"\" is unknown"), std::string::npos);
@@ -87,9 +91,11 @@ TEST_F(MeshImport, NamesWhatIsWrong) {
 }
 
 TEST_F(MeshImport, MissingFilesAndFolders) {
-  EXPECT_EQ(error_of([&] { source_.load(folder_ / "no.obj"); }), (folder_ / "no.obj") + ": cannot read: No such file or directory");
+  EXPECT_EQ(error_of([&] { source_.load(folder_ / "no.obj"); }),
+            (folder_ / "no.obj") + ": cannot read: No such file or directory");
   std::filesystem::create_directory(folder_ / "folder.obj");
-  EXPECT_EQ(error_of([&] { source_.load(folder_ / "folder.obj"); }), (folder_ / "folder.obj") + ": cannot read: it is a folder");
+  EXPECT_EQ(error_of([&] { source_.load(folder_ / "folder.obj"); }),
+            (folder_ / "folder.obj") + ": cannot read: it is a folder");
 }
 
 TEST_F(MeshImport, HoldsItsLimits) {
@@ -108,7 +114,8 @@ void expect_sound(AssimpMeshSource& source, const std::string& path, const std::
     for (const Triangle& t : mesh.triangles) {
       for (const std::uint32_t corner : t) ASSERT_LT(corner, mesh.positions.size()) << what;
     }
-    for (const Vec3& p : mesh.positions) ASSERT_LE(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1e9f) << what;
+    for (const Vec3& p : mesh.positions)
+      ASSERT_LE(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1e9f) << what;
   } catch (const Error& e) {
     ASSERT_NE(std::string(e.what()).find(path), std::string::npos) << what << ": " << e.what();
   }
@@ -131,7 +138,8 @@ TEST_P(DamagedFiles, NeverCrash) {
     std::string bytes = whole;
     // Half of the damage goes to the head, where the structure is.
     for (int k = 0; k < 4; ++k) {
-      const auto range = static_cast<std::uint32_t>(round % 2 ? bytes.size() : std::min<std::size_t>(bytes.size(), 2000));
+      const auto range =
+          static_cast<std::uint32_t>(round % 2 ? bytes.size() : std::min<std::size_t>(bytes.size(), 2000));
       bytes[random.below(range)] = static_cast<char>(random.next_u32());
     }
     write_file(damaged, bytes);
