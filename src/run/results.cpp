@@ -21,7 +21,7 @@ std::string alternative_name(std::size_t index, const char* ending) {
 
 std::string caption(const Individual& individual, std::size_t index, double optimum) {
   std::string text = index == 0 ? "best" : fmt::format("{}", index);
-  text += fmt::format("  {:.4g}", individual.score);
+  text += fmt::format("  {:.6g}", individual.score);
   if (optimum > 0) text += fmt::format(" ({:.1f} %)", 100 * individual.score / optimum);
   return text;
 }
@@ -85,14 +85,29 @@ void ResultWriter::write(const std::string& name, const std::string& path) {
 }
 
 void ResultWriter::write_individual(std::size_t index, const std::string& path, const Provenance& provenance) {
+  if (index > 0 && path.ends_with(".png")) return write_small_picture(index, path, provenance);
   files_.write(individual(index).derivation, path, provenance);
+}
+
+const Picture& ResultWriter::small_picture(std::size_t index) {
+  small_pictures_.resize(size());
+  Picture& picture = small_pictures_[index];
+  if (picture.rgb.empty()) {
+    const std::array<std::uint32_t, 2> whole = setup_.scene.output.picture;
+    picture = files_.picture(individual(index).derivation, {whole[0] / 2, whole[1] / 2});
+  }
+  return picture;
+}
+
+void ResultWriter::write_small_picture(std::size_t index, const std::string& path, const Provenance& provenance) {
+  const Picture& picture = small_picture(index);
+  write_png(path, picture.width, picture.height, picture.rgb, provenance);
 }
 
 void ResultWriter::write_sheet(const std::string& path) {
   std::vector<SheetCell> cells;
   for (std::size_t i = 0; i < size(); ++i) {
-    cells.push_back(
-        {files_.picture(individual(i).derivation, {400, 300}), caption(individual(i), i, setup_.objective.optimum())});
+    cells.push_back({small_picture(i), caption(individual(i), i, setup_.objective.optimum())});
   }
   const Picture sheet = contact_sheet(cells, fmt::format("{}, seed {}", setup_.graph().name, setup_.scene.seed));
   write_png(path, sheet.width, sheet.height, sheet.rgb, provenance(0, "."));

@@ -30,10 +30,12 @@ class ResultWriter {
   /// The text of run.toml.
   const std::string& settings() const { return settings_; }
 
-  /// A file about one individual, by the ending of `path` (see ModelFiles).
+  /// A file about one individual, by the ending of `path` (see ModelFiles); pictures of alternatives have half the size.
   void write_individual(std::size_t index, const std::string& path, const Provenance& provenance);
 
  private:
+  const Picture& small_picture(std::size_t index);
+  void write_small_picture(std::size_t index, const std::string& path, const Provenance& provenance);
   void write_sheet(const std::string& path);
   void write_result(const std::string& path) const;
   void write_convergence(const std::string& path) const;
@@ -42,6 +44,7 @@ class ResultWriter {
   const SearchResult& result_;
   std::string settings_;
   ModelFiles files_;
+  std::vector<Picture> small_pictures_;  // by individual; empty ones are not drawn yet
 };
 
 }  // namespace espalier

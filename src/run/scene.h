@@ -68,7 +68,7 @@ struct SceneVolume {
 
 struct SceneOutput {
   std::uint32_t keep = 8;       // alternatives beside the best
-  double distance = 0.3;        // least distance of any two kept (run/diversity.h)
+  double distance = 0.2;        // least distance of any two kept (run/diversity.h)
   std::array<std::uint32_t, 2> picture = {1200, 900};
 
   bool operator==(const SceneOutput&) const = default;

@@ -10,6 +10,9 @@
 namespace espalier {
 namespace {
 
+// Sketching costs about as much as scoring, and populations change slowly.
+constexpr std::uint64_t kStepsPerOffer = 10;
+
 class Stopwatch {
  public:
   double seconds() const {
@@ -31,6 +34,13 @@ std::string reason_to_stop(const SearchControl& control, const StepReport& repor
   return "";
 }
 
+// One place more than are kept: the best takes one.
+DiverseArchive make_archive(const Setup& setup) {
+  const VoxelGrid& grid = setup.volume->grid();
+  return DiverseArchive(ModelSketcher(setup.graph(), {grid.min, grid.max}, setup.full()),
+                        std::size_t{setup.scene.output.keep} + 1, setup.scene.output.distance);
+}
+
 double mean_score(std::span<const Individual> population) {
   double sum = 0;
   for (const Individual& individual : population) sum += individual.score;
@@ -43,31 +53,27 @@ std::optional<SearchResult> run_search(const Setup& setup, const SearchControl& 
   CHECK(setup.scene.search.engine == "ga");
   SceneScorer scorer(setup.graph(), setup.objective, executor);
   GaEngine engine({setup.grammar.graph, {}, &scorer, setup.scene.seed, 0}, setup.scene.search.ga);
-  DiverseArchive archive(setup.graph(), std::size_t{setup.scene.output.keep} + 1, setup.scene.output.distance);
+  DiverseArchive archive = make_archive(setup);
 
   SearchResult result;
   const Stopwatch watch;
   while (result.stopped_by.empty()) {
     if (result.steps == 0 && control.stop && control.stop->load()) return std::nullopt;
     engine.step();
-    archive.offer(engine.population());
     result.steps = engine.steps();
     const StepReport report = {engine.steps(), engine.evaluations(), watch.seconds(), engine.best().score,
                                mean_score(engine.population())};
     result.log.push_back(report);
     if (control.observer) control.observer->step(report);
     result.stopped_by = reason_to_stop(control, report);
+    if (report.step % kStepsPerOffer == 1 || !result.stopped_by.empty()) archive.offer(engine.population());
   }
   result.seconds = watch.seconds();
   result.evaluations = engine.evaluations();
   result.diagnostics = engine.diagnostics();
   result.best = engine.best();
   result.explanation = scorer.explain(result.best.derivation);
-  for (const Individual& member : archive.members()) {
-    if (!(member.derivation == result.best.derivation)) result.alternatives.push_back(member);
-  }
-  // The archive holds the best too, unless nothing is kept.
-  if (result.alternatives.size() > setup.scene.output.keep) result.alternatives.resize(setup.scene.output.keep);
+  if (setup.scene.output.keep > 0) result.alternatives = archive.apart_from(result.best.derivation);
   return result;
 }
 

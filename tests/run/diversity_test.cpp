@@ -1,65 +1,84 @@
 #include "run/diversity.h"
 
+#include <algorithm>
+#include <bit>
+
 #include <gtest/gtest.h>
 
 #include "derivation/moves.h"
 #include "derivation/sample.h"
-#include "search/test_graph.h"
+#include "grammar/compiler.h"
+#include "run/fixtures.h"
 
 namespace espalier {
 namespace {
 
-using testing::twig_graph;
+std::shared_ptr<const GeneratorGraph> pile_graph() {
+  return compile_grammar({"pile.esp", testing::kPileGrammar, {}}).graph;
+}
 
-Derivation grown(std::uint32_t individual, std::size_t genes) {
-  const auto graph = twig_graph();
+Derivation grown(const GeneratorGraph& graph, std::uint32_t individual, std::size_t genes) {
   RandomStream random({5, Purpose::test, 0, individual, 0});
-  Derivation d = seedling(*graph, random);
-  close_open_slots(*graph, d, random);
-  while (d.size() < genes && grow(*graph, d, {}, random)) {}
+  Derivation d = seedling(graph, random);
+  close_open_slots(graph, d, random);
+  while (d.size() < genes && grow(graph, d, {}, random)) {}
   return d;
 }
 
-TEST(Distance, IsAMetricInItsSimplestRespects) {
-  const auto graph = twig_graph();
-  for (std::uint32_t i = 0; i < 20; ++i) {
-    const Derivation a = grown(i, 5 + i), b = grown(100 + i, 30 - i);
-    EXPECT_EQ(distance(*graph, a, a), 0);
-    EXPECT_EQ(distance(*graph, a, b), distance(*graph, b, a));
-    EXPECT_GT(distance(*graph, a, b), 0);
-    EXPECT_LE(distance(*graph, a, b), 1);
-  }
+constexpr Bounds kBox = {Vec3(-2, 0, -1), Vec3(2, 8, 1)};
+
+Instance box_at(const Vec3& centre, const Vec3& size) {
+  Instance instance;
+  for (int i = 0; i < 3; ++i) instance.model_from_mesh.basis[i] *= size[i];
+  instance.model_from_mesh.origin = centre;
+  return instance;
 }
 
-TEST(Distance, CountsPlacesByHand) {
-  const auto graph = twig_graph();
-  // A root with a twig in the first place; with one in both; with one in the second. Draws agree.
-  const Derivation first = {{{0, 0, 1, 3, 1}, {1, 0, 0, 0, 0}},
-                            {SlotState::filled, SlotState::empty, SlotState::empty, SlotState::empty, SlotState::empty},
-                            {1u << 31}, 0};
-  Derivation second = first;
-  second.slots[0] = SlotState::empty, second.slots[1] = SlotState::filled;
-  Derivation both = first;
-  both.genes[0] = {0, 0, 2, 6, 2};
-  both.genes.push_back({1, 0, 0, 0, 0});
-  both.slots.assign(8, SlotState::empty);
-  both.slots[0] = both.slots[1] = SlotState::filled;
-  both.draws.push_back(1u << 31);
-  EXPECT_NEAR(distance(*graph, first, second), 1 - 1 / 3., 1e-12);  // only the root is shared, of three places
-  EXPECT_NEAR(distance(*graph, first, both), 1 - 2 / 3., 1e-12);
-  Derivation moved = first;
-  moved.draws[0] = 1u << 30;  // a quarter away
-  EXPECT_NEAR(distance(*graph, first, moved), 1 - (1 + 0.75) / 2, 1e-12);
+ModelSketch sketch_of(const std::vector<Instance>& instances) {
+  const auto graph = pile_graph();
+  const ModelSketcher sketcher(*graph, {Vec3(0), Vec3(32, 32, 32)}, true);  // cells of 1
+  Model model;
+  model.instances = instances;
+  ModelSketch sketch;
+  sketcher.draw(model, sketch);
+  return sketch;
+}
+
+std::size_t cells_of(const ModelSketch& sketch) {
+  std::size_t count = 0;
+  for (const std::uint64_t word : sketch.bits) count += static_cast<std::size_t>(std::popcount(word));
+  return count;
+}
+
+TEST(ModelSketch, TouchesTheCellsOfAPart) {
+  EXPECT_EQ(cells_of(sketch_of({})), 0u);
+  EXPECT_EQ(cells_of(sketch_of({box_at(Vec3(4, 4, 4), Vec3(3.98f, 1.98f, 1.98f))})), 16u);
+  // However thin, a part is seen.
+  EXPECT_EQ(cells_of(sketch_of({box_at(Vec3(4.5f, 4.5f, 4.5f), Vec3(2.9f, 1e-4f, 1e-4f))})), 3u);
+  EXPECT_EQ(cells_of(sketch_of({box_at(Vec3(-40, 4, 4), Vec3(2))})), 0u);
+}
+
+TEST(ModelSketch, DistanceIsOneMinusTheSharedPart) {
+  const Instance a = box_at(Vec3(4, 4, 4), Vec3(3.98f)), b = box_at(Vec3(6, 4, 4), Vec3(3.98f)),
+                 c = box_at(Vec3(20, 4, 4), Vec3(3.98f));
+  EXPECT_EQ(distance(sketch_of({}), sketch_of({})), 0);
+  EXPECT_EQ(distance(sketch_of({a}), sketch_of({a, a})), 0);
+  EXPECT_NEAR(distance(sketch_of({a}), sketch_of({b})), 1 - 32 / 96., 1e-12);
+  EXPECT_EQ(distance(sketch_of({a}), sketch_of({c})), 1);
+}
+
+TEST(ModelSketch, HugePartsCostBoundedTime) {
+  EXPECT_GT(cells_of(sketch_of({box_at(Vec3(16), Vec3(1e9f))})), 0u);
 }
 
 TEST(DiverseArchive, MembersAreSortedFarApartAndHoldTheBest) {
-  const auto graph = twig_graph();
-  DiverseArchive archive(*graph, 5, 0.4);
+  const auto graph = pile_graph();
+  DiverseArchive archive(ModelSketcher(*graph, kBox, true), 5, 0.4);
+  RandomStream random({8, Purpose::test});
   double best = -1;
   for (std::uint32_t round = 0; round < 30; ++round) {
     std::vector<Individual> population;
-    for (std::uint32_t i = 0; i < 10; ++i) population.push_back({grown(round * 10 + i, 4 + i), 0});
-    for (Individual& p : population) p.score = testing::BudScorer::score_of(p.derivation);
+    for (std::uint32_t i = 0; i < 10; ++i) population.push_back({grown(*graph, round * 10 + i, 4 + i), random.next_unit()});
     std::sort(population.begin(), population.end(), [](auto& a, auto& b) { return a.score > b.score; });
     best = std::max(best, population[0].score);
     archive.offer(population);
@@ -67,37 +86,37 @@ TEST(DiverseArchive, MembersAreSortedFarApartAndHoldTheBest) {
     ASSERT_FALSE(members.empty());
     EXPECT_LE(members.size(), 5u);
     EXPECT_EQ(members[0].score, best);
+    ModelSketcher check(*graph, kBox, true);
     for (std::size_t i = 0; i < members.size(); ++i) {
-      if (i > 0) {
-        EXPECT_LE(members[i].score, members[i - 1].score);
-      }
       for (std::size_t j = 0; j < i; ++j) {
-        EXPECT_GE(distance(*graph, members[i].derivation, members[j].derivation), 0.4);
+        ModelSketch a, b;
+        check.draw(members[i].derivation, a), check.draw(members[j].derivation, b);
+        EXPECT_GE(distance(a, b), 0.4);
+        EXPECT_LE(members[i].score, members[j].score);
       }
     }
   }
   EXPECT_EQ(archive.members().size(), 5u);
+  EXPECT_EQ(archive.apart_from(archive.members()[0].derivation).size(), 4u);
 }
 
 TEST(DiverseArchive, ABetterNeighbourReplacesAWorseOneAndTurnsItAway) {
-  const auto graph = twig_graph();
-  DiverseArchive archive(*graph, 5, 0.5);
-  const Derivation a = grown(1, 12);
-  Derivation b = a;
-  RandomStream random({6, Purpose::test});
-  ASSERT_TRUE(alter(*graph, b, {}, random));
+  const auto graph = pile_graph();
+  DiverseArchive archive(ModelSketcher(*graph, kBox, true), 5, 0.999);  // only strangers are far enough
+  const Derivation a = grown(*graph, 1, 12), b = grown(*graph, 2, 12);
   archive.offer(std::vector<Individual>{{a, 1}});
   archive.offer(std::vector<Individual>{{b, 2}});
   ASSERT_EQ(archive.members().size(), 1u);
   EXPECT_EQ(archive.members()[0].derivation, b);
   archive.offer(std::vector<Individual>{{a, 1.5}});
   ASSERT_EQ(archive.members().size(), 1u);
+  EXPECT_TRUE(archive.apart_from(b).empty());
 }
 
 TEST(DiverseArchive, OfNoSizeKeepsNothing) {
-  const auto graph = twig_graph();
-  DiverseArchive archive(*graph, 0, 0.5);
-  archive.offer(std::vector<Individual>{{grown(1, 5), 1}});
+  const auto graph = pile_graph();
+  DiverseArchive archive(ModelSketcher(*graph, kBox, true), 0, 0.5);
+  archive.offer(std::vector<Individual>{{grown(*graph, 1, 5), 1}});
   EXPECT_TRUE(archive.members().empty());
 }
 

@@ -1,0 +1,107 @@
+#include "run/sample.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "io/mesh_import.h"
+#include "run/fixtures.h"
+#include "run/reproduce.h"
+
+namespace espalier {
+namespace {
+
+using testing::read_tree;
+using testing::TemporaryFolder;
+using testing::write_pile;
+
+SampleRequest request_in(const TemporaryFolder& folder) {
+  SampleRequest request;
+  request.grammar = "pile.esp";
+  request.folder = folder.path();
+  request.count = 3;
+  request.picture = {64, 48};
+  return request;
+}
+
+void sample_into(const SampleRequest& request, const std::string& out, int threads = 1) {
+  AssimpMeshSource source;
+  write_samples(request, out, source, *make_thread_executor(threads));
+}
+
+TEST(SampleRequest, WrittenOutItReadsBackEqual) {
+  SampleRequest request;
+  request.grammar = "a b.esp", request.count = 5, request.seed = 9, request.grow = 4, request.picture = {32, 16};
+  request.attributes = {{"x", "1"}, {"fork", "25deg"}};
+  const SampleRequest again = parse_sample_request(to_toml(request), "s", "");
+  EXPECT_EQ(to_toml(again), to_toml(request));
+  EXPECT_EQ(again.attributes, request.attributes);
+  EXPECT_EQ(again.grow, request.grow);
+  EXPECT_THROW(parse_sample_request("espalier_sample = 1\ngrammar = \"g\"\ncount = 0", "s", ""), Error);
+  EXPECT_THROW(parse_sample_request("espalier_sample = 1\ngrammar = \"g\"\nfoo = 0", "s", ""), Error);
+}
+
+TEST(Sample, WritesModelsPicturesAndASheet) {
+  const TemporaryFolder folder;
+  write_pile(folder);
+  sample_into(request_in(folder), folder / "out");
+  std::vector<std::string> names;
+  for (const auto& [name, text] : read_tree(folder / "out")) names.push_back(name);
+  EXPECT_THAT(names, ::testing::ElementsAre("01.derivation.json", "01.glb", "01.png", "02.derivation.json", "02.glb",
+                                            "02.png", "03.derivation.json", "03.glb", "03.png", "inputs/pile.esp",
+                                            "samples.png", "samples.toml"));
+}
+
+TEST(Sample, SameSeedSameBytesForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  write_pile(folder);
+  SampleRequest request = request_in(folder);
+  sample_into(request, folder / "one", 1);
+  sample_into(request, folder / "three", 3);
+  EXPECT_EQ(read_tree(folder / "one"), read_tree(folder / "three"));
+  request.seed = 2;
+  sample_into(request, folder / "other");
+  EXPECT_NE(read_tree(folder / "one").at("01.derivation.json"), read_tree(folder / "other").at("01.derivation.json"));
+}
+
+TEST(Sample, GrowStopsAfterItsSteps) {
+  const TemporaryFolder folder;
+  write_pile(folder);
+  SampleRequest request = request_in(folder);
+  AssimpMeshSource source;
+  const auto executor = make_serial_executor();
+  request.grow = 0;
+  EXPECT_EQ(SampleSet(request, source, *executor).derivation(0).size(), 1u);
+  request.grow = 1;
+  EXPECT_EQ(SampleSet(request, source, *executor).derivation(0).size(), 2u);
+}
+
+TEST(Sample, AttributesShapeTheModels) {
+  const TemporaryFolder folder;
+  write_pile(folder);
+  SampleRequest request = request_in(folder);
+  sample_into(request, folder / "narrow");
+  request.attributes["widest"] = "3";
+  sample_into(request, folder / "wide");
+  EXPECT_NE(read_tree(folder / "narrow").at("01.glb"), read_tree(folder / "wide").at("01.glb"));
+  request.attributes["widets"] = "3";
+  EXPECT_THROW(sample_into(request, folder / "bad"), Error);
+  EXPECT_FALSE(std::filesystem::exists(folder / "bad"));
+}
+
+TEST(Sample, EveryFileIsReproducedIdentically) {
+  const TemporaryFolder folder;
+  write_pile(folder);
+  SampleRequest request = request_in(folder);
+  request.grow = 3;
+  sample_into(request, folder / "out");
+  AssimpMeshSource source;
+  const auto executor = make_serial_executor();
+  for (const char* name : {"01.glb", "02.png", "03.derivation.json", "samples.png"}) {
+    const ReproduceReport report = reproduce(folder / "out/" + name, "", source, *executor);
+    EXPECT_TRUE(report.identical()) << name << ": " << ::testing::PrintToString(report.differences);
+  }
+}
+
+}  // namespace
+}  // namespace espalier
