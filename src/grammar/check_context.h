@@ -89,6 +89,8 @@ void check_kinds(CheckContext& context);
 void evaluate_values(CheckContext& context);
 /// What may stand where: rules, details, conditions, lists.
 void check_structure(CheckContext& context);
+/// Details that call themselves without end.
+void check_detail_recursion(CheckContext& context);
 /// Values of static expressions, and how large rules become once their loops are unrolled. Fills spawns and chosen.
 void check_unrolled(CheckContext& context);
 /// Whether derivations end, and how large they are expected to be.

@@ -1,6 +1,6 @@
 #pragma once
-// CheckedGrammar: a syntax tree in which every name is known, every kind fits and every rule of the language holds, with
-// what the checker found out on the way. What the compiler reads.
+// CheckedGrammar: a syntax tree in which every name is known, every kind fits and every rule of the language holds,
+// with what the checker found out on the way. What the compiler reads.
 
 #include <map>
 #include <optional>
@@ -20,8 +20,8 @@ struct CheckedAttribute {
   StaticValue default_value;  // number, angle or boolean
   bool ranged = false;        // `in low..high`
   double low = 0, high = 0;
-  double step = 0;            // `by`; 0: none
-  std::string label;          // "Group/Label" or empty
+  double step = 0;    // `by`; 0: none
+  std::string label;  // "Group/Label" or empty
 };
 
 /// Every Expr of the tree has its `value_kind` set (of functions, rules and details that nobody calls: unspecified).

@@ -17,6 +17,7 @@ std::optional<CheckedGrammar> check(ast::Grammar grammar, const std::map<std::st
   check_body_names(context);
   if (ordered) check_kinds(context);
   check_structure(context);
+  check_detail_recursion(context);
   if (diagnostics.has_errors()) return std::nullopt;
   evaluate_values(context);
   if (diagnostics.has_errors()) return std::nullopt;

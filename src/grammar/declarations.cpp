@@ -19,10 +19,9 @@ void declare(CheckContext& context, const Decl& decl) {
   const auto [place, fresh] = context.checked.declarations.try_emplace(decl.name, context.index_of(decl));
   if (fresh) return;
   const Decl& earlier = context.decls()[place->second];
-  context.diagnostics.error("E0203", decl.name_span,
-                            fmt::format("`{}` is declared twice; all declarations share one namespace", decl.name),
-                            fmt::format("the {} `{}` stands on line {}", word_of(earlier.kind), decl.name,
-                                        earlier.name_span.line));
+  context.diagnostics.error(
+      "E0203", decl.name_span, fmt::format("`{}` is declared twice; all declarations share one namespace", decl.name),
+      fmt::format("the {} `{}` stands on line {}", word_of(earlier.kind), decl.name, earlier.name_span.line));
 }
 
 void find_start(CheckContext& context, const Decl* start) {
@@ -87,19 +86,21 @@ void collect_declarations(CheckContext& context) {
     } else if (decl.kind != DeclKind::start) {
       declare(context, decl);
     } else if (start) {
-      context.diagnostics.error("E0209", decl.span, fmt::format("the start is named twice, first on line {}",
-                                                                start->span.line));
+      context.diagnostics.error("E0209", decl.span,
+                                fmt::format("the start is named twice, first on line {}", start->span.line));
     } else {
       start = &decl;
     }
     if (decl.limit && *decl.limit == 0)
-      context.diagnostics.error("E0601", decl.name_span, fmt::format("the limit of `{}` must be at least 1, got 0", decl.name),
+      context.diagnostics.error("E0601", decl.name_span,
+                                fmt::format("the limit of `{}` must be at least 1, got 0", decl.name),
                                 "delete the rule if no gene of it may exist");
     bodies += decl.kind == DeclKind::rule || decl.kind == DeclKind::detail;
   }
   if (bodies > kMostRules)
-    context.diagnostics.error("E0605", context.checked.ast.name_span,
-                              fmt::format("a grammar has at most {} rules and details, this one has {}", kMostRules, bodies));
+    context.diagnostics.error(
+        "E0605", context.checked.ast.name_span,
+        fmt::format("a grammar has at most {} rules and details, this one has {}", kMostRules, bodies));
   find_start(context, start);
 }
 

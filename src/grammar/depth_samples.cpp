@@ -66,7 +66,8 @@ void DepthSamples::find_least_depths() {
 
 bool DepthSamples::reads_depth(const Expr& expr) const {
   if ((expr.kind == ExprKind::call || expr.kind == ExprKind::name) && expr.name == "depth") return true;
-  return std::any_of(expr.children.begin(), expr.children.end(), [&](const auto& child) { return reads_depth(*child); }) ||
+  return std::any_of(expr.children.begin(), expr.children.end(),
+                     [&](const auto& child) { return reads_depth(*child); }) ||
          std::any_of(expr.args.begin(), expr.args.end(), [&](const auto& arg) { return reads_depth(*arg.value); });
 }
 

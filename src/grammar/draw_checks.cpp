@@ -27,7 +27,8 @@ void StaticChecks::uniform(const Expr& call, const StaticScope& scope) {
   for (int i = 0; i < components; ++i)
     empty += a->numbers[static_cast<std::size_t>(i)] == b->numbers[static_cast<std::size_t>(i)];
   if (empty == components)
-    error("E0505", call, fmt::format("the range of this draw is empty: {} to {}", describe(*a), describe(*b)), "write a `let`");
+    error("E0505", call, fmt::format("the range of this draw is empty: {} to {}", describe(*a), describe(*b)),
+          "write a `let`");
   else if (empty > 0)
     warning("W0505", call, fmt::format("a component of this draw never varies: {} to {}", describe(*a), describe(*b)));
 }
@@ -36,7 +37,8 @@ void StaticChecks::normal(const Expr& call, const StaticScope& scope) {
   const Value deviation = value(*call.args[1].value, scope);
   const Value low = value(*call.args[2].value, scope), high = value(*call.args[3].value, scope);
   if (deviation && !(deviation->scalar() > 0))
-    error("E0506", *call.args[1].value, fmt::format("the deviation of `normal` must be > 0, got {}", describe(*deviation)),
+    error("E0506", *call.args[1].value,
+          fmt::format("the deviation of `normal` must be > 0, got {}", describe(*deviation)),
           "`normal(mean, deviation, low, high)`");
   if (low && high && !(low->scalar() < high->scalar()))
     error("E0505", call, fmt::format("the range of this draw is empty: {} to {}", describe(*low), describe(*high)),
@@ -49,7 +51,8 @@ void StaticChecks::loguniform(const Expr& call, const StaticScope& scope) {
     if (*bound && !((*bound)->scalar() > 0))
       error("E0507", *arg->value, fmt::format("the range of `loguniform` must lie above 0, got {}", describe(**bound)));
   if (a && b && *a == *b)
-    error("E0505", call, fmt::format("the range of this draw is empty: {} to {}", describe(*a), describe(*b)), "write a `let`");
+    error("E0505", call, fmt::format("the range of this draw is empty: {} to {}", describe(*a), describe(*b)),
+          "write a `let`");
 }
 
 void StaticChecks::integer(const Expr& call, const StaticScope& scope) {
@@ -63,7 +66,8 @@ void StaticChecks::integer(const Expr& call, const StaticScope& scope) {
     error("E0505", call, fmt::format("the range of this draw is empty: {} to {}", describe(*a), describe(*b)),
           "`integer(low, high)` has at least two values, both ends included");
   else if (b->scalar() - a->scalar() >= kMostValues)
-    error("E0508", call, fmt::format("`integer` has at most {} values, here {:.0f}", kMostValues, b->scalar() - a->scalar() + 1));
+    error("E0508", call,
+          fmt::format("`integer` has at most {} values, here {:.0f}", kMostValues, b->scalar() - a->scalar() + 1));
 }
 
 void StaticChecks::chance(const Expr& call, const StaticScope& scope) {
@@ -76,8 +80,7 @@ void StaticChecks::pick(const Expr& call, const StaticScope& scope) {
   for (const ast::Arg& arg : call.args) {
     if (!arg.label) continue;
     const Value weight = value(*arg.label, scope);
-    if (!weight)
-      error("E0510", *arg.label, "a weight of `pick` must be constant");
+    if (!weight) error("E0510", *arg.label, "a weight of `pick` must be constant");
     else if (!(weight->scalar() > 0))
       error("E0510", *arg.label, fmt::format("a weight must be > 0, got {}", describe(*weight)));
   }

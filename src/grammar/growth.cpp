@@ -11,8 +11,8 @@ using ast::Decl;
 
 namespace {
 
-constexpr double kFarBelow = 1e6;         // the depth that stands for "in the long run"
-constexpr double kCritical = 1 - 1e-9;    // a spectral radius from here on counts as 1
+constexpr double kFarBelow = 1e6;       // the depth that stands for "in the long run"
+constexpr double kCritical = 1 - 1e-9;  // a spectral radius from here on counts as 1
 constexpr int kMostIterations = 1000;
 
 }  // namespace
@@ -44,48 +44,6 @@ double Growth::mean_children(const SpawnTerm& term, const StaticScope& scope) co
     mean *= total > 0 ? own / total : 0;
   }
   return mean;
-}
-
-/// Strongly connected components of the rules that are not left out (Tarjan 1972, without recursion), each ascending.
-std::vector<Growth::Rules> Growth::components(const std::vector<char>& left_out) const {
-  constexpr std::size_t kUnseen = static_cast<std::size_t>(-1);
-  const std::size_t count = context_.decls().size();
-  std::vector<std::size_t> order(count, kUnseen), low(count, 0), next_term(count, 0), stack, path;
-  std::vector<char> on_stack(count, false);
-  std::vector<Rules> found;
-  std::size_t clock = 0;
-  const auto open = [&](std::size_t rule) {
-    order[rule] = low[rule] = clock++;
-    on_stack[rule] = true;
-    stack.push_back(rule);
-    path.push_back(rule);
-  };
-  for (std::size_t root = 0; root < count; ++root) {
-    if (order[root] != kUnseen || left_out[root] || context_.decls()[root].kind != ast::DeclKind::rule) continue;
-    open(root);
-    while (!path.empty()) {
-      const std::size_t rule = path.back();
-      if (next_term[rule] < context_.spawns[rule].size()) {
-        const std::size_t child = context_.spawns[rule][next_term[rule]++].child;
-        if (left_out[child]) continue;
-        if (order[child] == kUnseen) open(child);
-        else if (on_stack[child]) low[rule] = std::min(low[rule], order[child]);
-        continue;
-      }
-      path.pop_back();
-      if (!path.empty()) low[path.back()] = std::min(low[path.back()], low[rule]);
-      if (low[rule] != order[rule]) continue;
-      Rules component;
-      do {
-        component.push_back(stack.back());
-        on_stack[stack.back()] = false;
-        stack.pop_back();
-      } while (component.back() != rule);
-      std::sort(component.begin(), component.end());
-      found.push_back(std::move(component));
-    }
-  }
-  return found;
 }
 
 bool Growth::has_cycle(const Rules& component) const {
@@ -150,7 +108,9 @@ std::string Growth::name_cycle(const Rules& component, bool required_only) const
     for (std::size_t next = 0; next < row.size() && from[start] == ChosenCase::kNone; ++next) {
       for (const SpawnTerm& term : context_.spawns[row[next]]) {
         if (required_only && term.spawn->probability) continue;
-        if (from[term.child] != ChosenCase::kNone || !std::binary_search(component.begin(), component.end(), term.child)) continue;
+        if (from[term.child] != ChosenCase::kNone ||
+            !std::binary_search(component.begin(), component.end(), term.child))
+          continue;
         from[term.child] = row[next];
         row.push_back(term.child);
       }
@@ -173,9 +133,11 @@ void Growth::check_cycle(const Rules& component) {
   const bool is_required = required >= kCritical;
   context_.diagnostics.error(
       "E0802", context_.decls()[component[0]].name_span,
-      fmt::format("{} on the cycle {}, which has no guard and no limit: each turn is expected to make {:.3g} of itself, "
-                  "and that must be < 1",
-                  is_required ? "required spawns never end" : "genes become more and more", name_cycle(component, is_required), all),
+      fmt::format(
+          "{} on the cycle {}, which has no guard and no limit: each turn is expected to make {:.3g} of itself, "
+          "and that must be < 1",
+          is_required ? "required spawns never end" : "genes become more and more", name_cycle(component, is_required),
+          all),
       is_required ? "add a guard, `rule NAME when depth < N`, or write `maybe`"
                   : "lower the probabilities, or add a guard, `rule NAME when depth < N`, or a `limit`");
 }

@@ -23,13 +23,15 @@ class Growth {
 
   // growth.cpp: cycles and their spectral radius
   void check_cycle(const Rules& component);
-  std::vector<Rules> components(const std::vector<char>& left_out) const;
   bool has_cycle(const Rules& component) const;
   bool guard_ends(std::size_t rule, const Rules& component) const;
   double spectral_radius(const Rules& component, bool required_only) const;
   std::string name_cycle(const Rules& component, bool required_only) const;
   double mean_children(const SpawnTerm& term, const StaticScope& scope) const;
   StaticScope far_below(const Rules& component, double depth) const;
+
+  // growth_components.cpp: strongly connected components of the rules that are not left out, each ascending
+  std::vector<Rules> components(const std::vector<char>& left_out) const;
 
   // growth_end.cpp: required spawns
   void check_end();
@@ -42,8 +44,8 @@ class Growth {
 
   CheckContext& context_;
   DepthSamples samples_;
-  std::vector<char> ends_{};        // like ast.decls: can a gene of the rule be complete
-  std::vector<char> bounded_{};     // like ast.decls: a guard that fails some day, or a limit
+  std::vector<char> ends_{};     // like ast.decls: can a gene of the rule be complete
+  std::vector<char> bounded_{};  // like ast.decls: a guard that fails some day, or a limit
   std::vector<char> can_be_absent_{};
 };
 

@@ -88,8 +88,8 @@ void Growth::report_endless(std::size_t rule, std::vector<char>& reported) {
   }
   const ast::Decl& decl = context_.decls()[at];
   context_.diagnostics.error("E0801", decl.name_span,
-                             fmt::format("a gene of `{}` can never be complete: {}`{}` is required at every turn", decl.name,
-                                         names, decl.name),
+                             fmt::format("a gene of `{}` can never be complete: {}`{}` is required at every turn",
+                                         decl.name, names, decl.name),
                              "write `maybe`, or add a guard that fails some day: `rule NAME when depth < N`");
 }
 

@@ -52,10 +52,13 @@ void KindChecker::value_declaration(std::size_t index) {
 void KindChecker::attribute(const Decl& decl, MaybeKind kind) {
   if (!kind) return;
   if (*kind != Kind::number && *kind != Kind::angle && *kind != Kind::boolean)
-    return mismatch(*decl.value, fmt::format("an attr is a number, an angle or a boolean, and `{}` is {}", decl.name,
-                                             phrase_of(*kind)), std::nullopt, kind);
+    return mismatch(
+        *decl.value,
+        fmt::format("an attr is a number, an angle or a boolean, and `{}` is {}", decl.name, phrase_of(*kind)),
+        std::nullopt, kind);
   if (decl.low && *kind == Kind::boolean)
-    return mismatch(*decl.low, fmt::format("the attr `{}` is a boolean and has no range", decl.name), std::nullopt, kind);
+    return mismatch(*decl.low, fmt::format("the attr `{}` is a boolean and has no range", decl.name), std::nullopt,
+                    kind);
   for (const ast::ExprPtr* bound : {&decl.low, &decl.high, &decl.step})
     if (*bound) expect(**bound, {*kind}, "the range of this attr");
 }
@@ -93,7 +96,8 @@ void KindChecker::visit_function(std::size_t index) {
 void KindChecker::publish() {
   for (const Decl& decl : context_.decls()) {
     const Signature& signature = signatures_[context_.index_of(decl)];
-    const bool callable = decl.kind == DeclKind::function || decl.kind == DeclKind::rule || decl.kind == DeclKind::detail;
+    const bool callable =
+        decl.kind == DeclKind::function || decl.kind == DeclKind::rule || decl.kind == DeclKind::detail;
     if (!callable) continue;
     std::vector<Kind> kinds;
     for (const MaybeKind& kind : signature.kinds) kinds.push_back(kind.value_or(Kind::number));

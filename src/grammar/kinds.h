@@ -27,7 +27,7 @@ class KindChecker {
     std::vector<MaybeKind> kinds;
     std::vector<SourceSpan> set_by;  // the calls that gave the kinds
     bool visited = false;
-    MaybeKind result;                // functions
+    MaybeKind result;  // functions
   };
 
   // Declarations (kinds.cpp)
@@ -61,13 +61,14 @@ class KindChecker {
   MaybeKind of_builtin(const ast::Expr& expr);
   void primitive_arguments(const ast::Expr& expr);
   /// Same kind for all, one of `allowed` (empty: any).
-  MaybeKind common_kind(const std::vector<ast::Expr*>& exprs, std::initializer_list<Kind> allowed, std::string_view what);
+  MaybeKind common_kind(const std::vector<ast::Expr*>& exprs, std::initializer_list<Kind> allowed,
+                        std::string_view what);
   void expect(ast::Expr& expr, std::initializer_list<Kind> wanted, std::string_view what);
   void mismatch(const ast::Expr& expr, std::string message, MaybeKind wanted, MaybeKind got);
 
   CheckContext& context_;
-  std::vector<Signature> signatures_;  // like ast.decls
-  std::vector<MaybeKind> value_kinds_; // like ast.decls: consts, attrs
+  std::vector<Signature> signatures_;   // like ast.decls
+  std::vector<MaybeKind> value_kinds_;  // like ast.decls: consts, attrs
   std::map<std::string_view, MaybeKind> locals_{};
   std::map<std::string_view, MaybeKind> globals_{};
   std::deque<std::size_t> open_{};

@@ -51,12 +51,14 @@ KindChecker::MaybeKind KindChecker::common_kind(const std::vector<Expr*>& exprs,
     if (!kind) continue;
     if (allowed.size() > 0 && std::find(allowed.begin(), allowed.end(), *kind) == allowed.end()) {
       std::string list;
-      for (const Kind k : allowed) list += fmt::format("{}{}{}", list.empty() ? "" : " or ", name_of(k), k == Kind::mesh ? "es" : "s");
+      for (const Kind k : allowed)
+        list += fmt::format("{}{}{}", list.empty() ? "" : " or ", name_of(k), k == Kind::mesh ? "es" : "s");
       mismatch(*expr, fmt::format("{} takes {}, not {}", what, list, phrase_of(*kind)), *allowed.begin(), kind);
       return std::nullopt;
     }
     if (common && *common != *kind) {
-      mismatch(*expr, fmt::format("{} takes values of one kind, not {} and {}", what, phrase_of(*common), phrase_of(*kind)),
+      mismatch(*expr,
+               fmt::format("{} takes values of one kind, not {} and {}", what, phrase_of(*common), phrase_of(*kind)),
                common, kind);
       return std::nullopt;
     }
@@ -117,8 +119,9 @@ KindChecker::MaybeKind KindChecker::of_unary(const Expr& expr) {
   const MaybeKind operand = of(*expr.children[0]);
   if (!operand) return expr.op == ast::Operator::logical_not ? MaybeKind(Kind::boolean) : std::nullopt;
   const MaybeKind kind = kind_of_unary(expr.op, *operand);
-  if (!kind) mismatch(*expr.children[0], fmt::format("{}, not {}", rule_of(expr.op), phrase_of(*operand)),
-                      expr.op == ast::Operator::logical_not ? Kind::boolean : Kind::number, operand);
+  if (!kind)
+    mismatch(*expr.children[0], fmt::format("{}, not {}", rule_of(expr.op), phrase_of(*operand)),
+             expr.op == ast::Operator::logical_not ? Kind::boolean : Kind::number, operand);
   return kind;
 }
 

@@ -37,7 +37,9 @@ void KindChecker::statement(const ast::Stmt& stmt) {
 }
 
 void KindChecker::state_statement(const ast::Stmt& stmt) {
-  const auto first = [&](std::initializer_list<Kind> wanted, std::string_view what) { expect(*stmt.exprs[0], wanted, what); };
+  const auto first = [&](std::initializer_list<Kind> wanted, std::string_view what) {
+    expect(*stmt.exprs[0], wanted, what);
+  };
   const auto sized = [&](std::string_view what) {
     if (stmt.axis) first({number}, what);
     else first({vector, number}, what);
@@ -64,9 +66,7 @@ void KindChecker::state_statement(const ast::Stmt& stmt) {
     case StmtKind::extrude: return first({number}, "`extrude`");
     case StmtKind::paint: return first({material}, "`paint`");
     case StmtKind::reseed: return first({number}, "`reseed`");
-    case StmtKind::bone:
-      first({vector}, "`bone`");
-      return expect(*stmt.exprs[1], {vector}, "`bone`");
+    case StmtKind::bone: first({vector}, "`bone`"); return expect(*stmt.exprs[1], {vector}, "`bone`");
     case StmtKind::emit: return first({mesh}, "`emit`");
     default: break;
   }
@@ -74,7 +74,8 @@ void KindChecker::state_statement(const ast::Stmt& stmt) {
 
 void KindChecker::bind(const ast::Stmt& stmt, MaybeKind kind) {
   if (kind == text) {
-    mismatch(*stmt.exprs[0], fmt::format("`{}` would be a text, and only consts are texts", stmt.name), std::nullopt, kind);
+    mismatch(*stmt.exprs[0], fmt::format("`{}` would be a text, and only consts are texts", stmt.name), std::nullopt,
+             kind);
     kind = std::nullopt;
   }
   if (in_start_ && nesting_ == 0) globals_[stmt.name] = kind;
@@ -116,10 +117,10 @@ void KindChecker::pass_argument(const ast::Decl& callee, std::size_t param, cons
     known = kind;
     signature.set_by[param] = arg.span;
   } else if (*known != *kind) {
-    context_.diagnostics.error(
-        "E0304", arg.span,
-        fmt::format("all calls of `{}` must agree: `{}` is {} here", callee.name, callee.params[param].name, phrase_of(*kind)),
-        fmt::format("it is {} on line {}", phrase_of(*known), signature.set_by[param].line));
+    context_.diagnostics.error("E0304", arg.span,
+                               fmt::format("all calls of `{}` must agree: `{}` is {} here", callee.name,
+                                           callee.params[param].name, phrase_of(*kind)),
+                               fmt::format("it is {} on line {}", phrase_of(*known), signature.set_by[param].line));
   }
 }
 
@@ -133,7 +134,8 @@ KindChecker::MaybeKind KindChecker::draw(ast::Expr& call) {
   MaybeKind kind;
   if (call.name == "uniform") kind = common_kind(values, {number, angle, vector}, what);
   else if (call.name == "normal") kind = common_kind(values, {number, angle}, what);
-  else if (call.name == "loguniform" || call.name == "integer") kind = common_kind(values, {number}, what), kind = number;
+  else if (call.name == "loguniform" || call.name == "integer")
+    kind = common_kind(values, {number}, what), kind = number;
   else if (call.name == "angle") kind = angle;
   else if (call.name == "chance") common_kind(values, {number}, what), kind = boolean;
   else if (call.name == "pick") kind = common_kind(values, {number, angle, vector, boolean, mesh, material}, what);

@@ -101,7 +101,8 @@ class Lexer {
 
     Token token{TokenKind::number, source_.substr(at_, length + unit_length), span(at_, length + unit_length)};
     const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), token.value);
-    if (fault != std::errc() && !(std::isfinite(token.value) && fault == std::errc::result_out_of_range && underflows(digits)))
+    if (fault != std::errc() &&
+        !(std::isfinite(token.value) && fault == std::errc::result_out_of_range && underflows(digits)))
       diagnostics_.error("E0103", token.span, fmt::format("the number {} is too large", shorten(digits)));
     if (!unit_from(unit_text, token.unit))
       diagnostics_.error("E0103", span(at_ + length, unit_length),
@@ -127,9 +128,13 @@ class Lexer {
 
   static bool unit_from(std::string_view text, ast::Unit& unit) {
     using enum ast::Unit;
-    constexpr std::array<std::pair<std::string_view, ast::Unit>, 7> kUnits = {{
-        {"", none}, {"deg", degrees}, {"rad", radians}, {"m", metres}, {"cm", centimetres}, {"mm", millimetres},
-        {"%", percent}}};
+    constexpr std::array<std::pair<std::string_view, ast::Unit>, 7> kUnits = {{{"", none},
+                                                                               {"deg", degrees},
+                                                                               {"rad", radians},
+                                                                               {"m", metres},
+                                                                               {"cm", centimetres},
+                                                                               {"mm", millimetres},
+                                                                               {"%", percent}}};
     for (const auto& [name, value] : kUnits) {
       if (name != text) continue;
       unit = value;
@@ -203,8 +208,8 @@ std::vector<Token> tokenize(std::string_view source, Diagnostics& diagnostics) {
 
 std::string describe(const Token& token) {
   constexpr std::size_t kShown = 40;
-  const std::string text = token.text.size() <= kShown ? std::string(token.text)
-                                                       : std::string(token.text.substr(0, kShown)) + "...";
+  const std::string text =
+      token.text.size() <= kShown ? std::string(token.text) : std::string(token.text.substr(0, kShown)) + "...";
   switch (token.kind) {
     case TokenKind::number: return fmt::format("the number `{}`", text);
     case TokenKind::text: return fmt::format("the text \"{}\"", text);

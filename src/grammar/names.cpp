@@ -94,16 +94,18 @@ void NameChecker::bind(const ast::Stmt& stmt) {
   if (in_start() && nesting_ == 0) {
     const auto place = context_.globals.find(stmt.name);
     if (place->second.place < globals_defined_)
-      context_.diagnostics.error("E0204", stmt.name_span, fmt::format("`{}` is already a name of the start rule", stmt.name));
+      context_.diagnostics.error("E0204", stmt.name_span,
+                                 fmt::format("`{}` is already a name of the start rule", stmt.name));
     else ++globals_defined_;
   }
   declare(stmt.name, stmt.kind == StmtKind::draw ? LocalSort::draw : LocalSort::let, stmt.name_span);
 }
 
 void NameChecker::loop(const ast::Stmt& stmt) {
-  const Reader fixed{kConstants | kLoops, "the list of a `for` in a rule",
-                     "it holds only literals, consts and outer loop variables, so that slots and draws are known before "
-                     "the search; details may loop over anything"};
+  const Reader fixed{
+      kConstants | kLoops, "the list of a `for` in a rule",
+      "it holds only literals, consts and outer loop variables, so that slots and draws are known before "
+      "the search; details may loop over anything"};
   for (const ast::ExprPtr& value : stmt.list.values) read(*value, in_rule() ? fixed : body_reader());
   declare(stmt.name, LocalSort::loop, stmt.name_span);
   block(stmt.blocks[0]);
@@ -116,11 +118,11 @@ void NameChecker::declare(std::string_view name, LocalSort sort, const SourceSpa
   };
   const bool global = in_start() && nesting_ == 0 && (sort == LocalSort::draw || sort == LocalSort::let);
   if (const Decl* decl = context_.checked.find(name))
-    refuse(fmt::format("the {} of that name", word_of(decl->kind)), fmt::format("it stands on line {}", decl->name_span.line));
+    refuse(fmt::format("the {} of that name", word_of(decl->kind)),
+           fmt::format("it stands on line {}", decl->name_span.line));
   else if (!global && context_.globals.contains(name) && in_start())
     refuse("the draw or let of that name at the top of the start rule", "those are seen everywhere");
-  else if (!global && context_.globals.contains(name))
-    context_.hidings.push_back({name, span});
+  else if (!global && context_.globals.contains(name)) context_.hidings.push_back({name, span});
   if (global) return;
   const auto [place, fresh] = locals_.try_emplace(name, Local{sort, span});
   if (fresh) return;
@@ -141,10 +143,12 @@ void NameChecker::close(std::string_view name) {
 void NameChecker::report_unread(std::string_view name, LocalSort sort, const SourceSpan& span) {
   constexpr std::string_view kWords[] = {"parameter", "draw", "let", "loop variable"};
   if (sort == LocalSort::draw && in_rule())
-    context_.diagnostics.error("E0207", span, fmt::format("nobody reads the draw `{}`, so it would be a dead gene", name),
+    context_.diagnostics.error("E0207", span,
+                               fmt::format("nobody reads the draw `{}`, so it would be a dead gene", name),
                                "use it or delete it");
   else
-    context_.diagnostics.warning("W0221", span, fmt::format("nobody reads the {} `{}`", kWords[static_cast<int>(sort)], name));
+    context_.diagnostics.warning("W0221", span,
+                                 fmt::format("nobody reads the {} `{}`", kWords[static_cast<int>(sort)], name));
 }
 
 void NameChecker::close_globals() {
@@ -157,9 +161,11 @@ void NameChecker::close_globals() {
   }
   // Two things of one name: an error where readers of both exist outside the start rule, else only bad style.
   for (const CheckContext::Hiding& hiding : context_.hidings) {
-    const std::string message = fmt::format("`{}` hides the draw or let of that name at the top of the start rule", hiding.name);
+    const std::string message =
+        fmt::format("`{}` hides the draw or let of that name at the top of the start rule", hiding.name);
     constexpr const char* kHelp = "those are seen everywhere; pick another name for one of the two";
-    if (context_.globals.find(hiding.name)->second.used_outside) context_.diagnostics.error("E0204", hiding.span, message, kHelp);
+    if (context_.globals.find(hiding.name)->second.used_outside)
+      context_.diagnostics.error("E0204", hiding.span, message, kHelp);
     else context_.diagnostics.warning("W0204", hiding.span, message, kHelp);
   }
 }
@@ -176,9 +182,9 @@ void NameChecker::reference(const ast::Ref& ref, DeclKind kind) {
     if (target && target->kind == DeclKind::detail) help = fmt::format("details are called: `detail {}`", ref.name);
     if (target && target->kind == DeclKind::rule) help = fmt::format("rules are made with `spawn {}`", ref.name);
     if (target)
-      diagnostics.error("E0206", ref.span, fmt::format("`{}` is a {}, not a {}", ref.name, word_of(target->kind), word_of(kind)), help);
-    else
-      diagnostics.error("E0202", ref.span, fmt::format("there is no {} `{}`", word_of(kind), ref.name), help);
+      diagnostics.error("E0206", ref.span,
+                        fmt::format("`{}` is a {}, not a {}", ref.name, word_of(target->kind), word_of(kind)), help);
+    else diagnostics.error("E0202", ref.span, fmt::format("there is no {} `{}`", word_of(kind), ref.name), help);
     return;
   }
   const std::size_t index = context_.index_of(*target);
@@ -210,17 +216,20 @@ void check_reach(CheckContext& context) {
     const bool here = reached[context.index_of(decl)];
     context.checked.reachable[decl.name] = here;
     if (!here)
-      context.diagnostics.warning("W0222", decl.name_span, fmt::format("the start rule never leads to the {} `{}`",
-                                                                       word_of(decl.kind), decl.name));
+      context.diagnostics.warning(
+          "W0222", decl.name_span,
+          fmt::format("the start rule never leads to the {} `{}`", word_of(decl.kind), decl.name));
   }
 }
 
 void warn_of_unused(CheckContext& context) {
   for (const Decl& decl : context.decls()) {
     const bool value = decl.kind == DeclKind::constant || decl.kind == DeclKind::function ||
-                       decl.kind == DeclKind::attribute || decl.kind == DeclKind::mesh || decl.kind == DeclKind::material;
+                       decl.kind == DeclKind::attribute || decl.kind == DeclKind::mesh ||
+                       decl.kind == DeclKind::material;
     if (value && !context.used[context.index_of(decl)])
-      context.diagnostics.warning("W0221", decl.name_span, fmt::format("nobody reads the {} `{}`", word_of(decl.kind), decl.name));
+      context.diagnostics.warning("W0221", decl.name_span,
+                                  fmt::format("nobody reads the {} `{}`", word_of(decl.kind), decl.name));
   }
 }
 

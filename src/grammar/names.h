@@ -24,7 +24,14 @@ class NameChecker {
  private:
   /// What an expression may read, by where it stands.
   enum Sight : unsigned {
-    kConstants = 1, kAttributes = 2, kGlobals = 4, kLocals = 8, kLoops = 16, kScope = 32, kDepth = 64, kChildless = 128,
+    kConstants = 1,
+    kAttributes = 2,
+    kGlobals = 4,
+    kLocals = 8,
+    kLoops = 16,
+    kScope = 32,
+    kDepth = 64,
+    kChildless = 128,
     kMeshes = 256,
   };
   struct Reader {

@@ -104,7 +104,8 @@ void NameChecker::read_declared(const Expr& expr, const Decl& decl, const Reader
                                  fmt::format("write `{}(...)`", expr.name));
       return;
     default:
-      context_.diagnostics.error("E0206", expr.span, fmt::format("the {} `{}` is no value", word_of(decl.kind), expr.name));
+      context_.diagnostics.error("E0206", expr.span,
+                                 fmt::format("the {} `{}` is no value", word_of(decl.kind), expr.name));
   }
 }
 
@@ -155,13 +156,14 @@ void NameChecker::call_function(const Expr& expr, const Decl& function, const Re
   count(expr.span, expr.name, expr.args.size(), params, params);
   for (const ast::Arg& arg : expr.args) {
     if (arg.label)
-      context_.diagnostics.error("E0303", arg.label->span, fmt::format("the arguments of `{}` carry no names", expr.name));
+      context_.diagnostics.error("E0303", arg.label->span,
+                                 fmt::format("the arguments of `{}` carry no names", expr.name));
     read(*arg.value, reader);
   }
   if (in_rule() && context_.globals_read[index] > globals_defined_)
-    context_.diagnostics.error("E0205", expr.span,
-                               fmt::format("`{}` reads a draw or let of the start rule that is not made yet", expr.name),
-                               "move the call further down");
+    context_.diagnostics.error(
+        "E0205", expr.span, fmt::format("`{}` reads a draw or let of the start rule that is not made yet", expr.name),
+        "move the call further down");
 }
 
 void NameChecker::call_builtin(const Expr& expr, const Builtin& builtin, const Reader& reader) {
@@ -226,7 +228,8 @@ void NameChecker::draw(const Expr& expr, const Reader& reader) {
   for (const ast::Arg& arg : expr.args) {
     if (arg.label && expr.name == "pick") read(*arg.label, weight);
     else if (arg.label)
-      context_.diagnostics.error("E0303", arg.label->span, fmt::format("the arguments of `{}` carry no names", expr.name));
+      context_.diagnostics.error("E0303", arg.label->span,
+                                 fmt::format("the arguments of `{}` carry no names", expr.name));
     read(*arg.value, reader);
   }
 }
@@ -235,18 +238,19 @@ bool NameChecker::count(const SourceSpan& span, std::string_view name, std::size
   const int n = static_cast<int>(given);
   if (n >= fewest && n <= most) return true;
   const std::string wanted = fewest == most ? fmt::format("{}", fewest) : fmt::format("{} to {}", fewest, most);
-  context_.diagnostics.error("E0301", span, fmt::format("`{}` takes {} argument{}, got {}", name, wanted,
-                                                        wanted == "1" ? "" : "s", given));
+  context_.diagnostics.error(
+      "E0301", span, fmt::format("`{}` takes {} argument{}, got {}", name, wanted, wanted == "1" ? "" : "s", given));
   return false;
 }
 
 void NameChecker::unknown(const Expr& expr, bool called) {
   std::string help;
-  if (context_.diagnostics.error_count() < Diagnostics::kMostErrors) help = did_you_mean(expr.name, words_in_sight(called));
+  if (context_.diagnostics.error_count() < Diagnostics::kMostErrors)
+    help = did_you_mean(expr.name, words_in_sight(called));
   if (help.empty() && expr.name == "width") help = "the size of the part is `scope.x`, `scope.y`, `scope.z`";
   if (help.empty() && expr.name == "pi") help = "half a turn is `180deg`";
-  context_.diagnostics.error("E0201", expr.span,
-                             fmt::format("there is no {} `{}` in sight", called ? "function" : "value", expr.name), help);
+  context_.diagnostics.error(
+      "E0201", expr.span, fmt::format("there is no {} `{}` in sight", called ? "function" : "value", expr.name), help);
 }
 
 std::vector<std::string_view> NameChecker::words_in_sight(bool called) const {

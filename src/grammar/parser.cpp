@@ -76,7 +76,8 @@ void Parser::enter() {
 
 void Parser::check_height(const ast::Expr& expr) {
   if (expr.height <= kDeepestNesting) return;
-  fail_at("E0106", expr.span, fmt::format("operators nest at most {} deep", kDeepestNesting), "name parts of it with `let`");
+  fail_at("E0106", expr.span, fmt::format("operators nest at most {} deep", kDeepestNesting),
+          "name parts of it with `let`");
 }
 
 // Declarations.
@@ -114,7 +115,8 @@ void Parser::header(ast::Grammar& grammar) {
 ast::Decl Parser::declaration() {
   const Token first = peek();
   if (!at_declaration()) {
-    const std::string help = first.kind == TokenKind::word ? did_you_mean(first.text, declaration_words()) : std::string();
+    const std::string help =
+        first.kind == TokenKind::word ? did_you_mean(first.text, declaration_words()) : std::string();
     fail("a declaration (rule, detail, const, attr, fn, mesh, material, start, import)", help);
   }
   take();
@@ -208,8 +210,9 @@ void Parser::skip_to_declaration() {
 
 ast::Grammar parse(std::string_view source, Diagnostics& diagnostics) {
   if (source.size() > kLargestSource) {
-    diagnostics.error("E0105", SourceSpan{}, fmt::format("a grammar is at most {} bytes long, this one has {}",
-                                                         kLargestSource, source.size()));
+    diagnostics.error(
+        "E0105", SourceSpan{},
+        fmt::format("a grammar is at most {} bytes long, this one has {}", kLargestSource, source.size()));
     return {};
   }
   return Parser(tokenize(source, diagnostics), diagnostics).file();

@@ -1,6 +1,6 @@
 #pragma once
-// The parser: text -> syntax tree, by recursive descent over the EBNF of docs/language.md. It goes on after an error at the
-// next statement or declaration, so that several errors come out in one go.
+// The parser: text -> syntax tree, by recursive descent over the EBNF of docs/language.md. It goes on after an error at
+// the next statement or declaration, so that several errors come out in one go.
 
 #include <cstddef>
 #include <string_view>

@@ -24,18 +24,12 @@ struct BinaryOperator {
 };
 
 constexpr std::array kOperators = {
-    BinaryOperator{"or", Operator::logical_or, kOr},
-    BinaryOperator{"and", Operator::logical_and, kAnd},
-    BinaryOperator{"<", Operator::less, kCompare},
-    BinaryOperator{"<=", Operator::less_equal, kCompare},
-    BinaryOperator{">", Operator::greater, kCompare},
-    BinaryOperator{">=", Operator::greater_equal, kCompare},
-    BinaryOperator{"==", Operator::equal, kCompare},
-    BinaryOperator{"!=", Operator::not_equal, kCompare},
-    BinaryOperator{"+", Operator::add, kSum},
-    BinaryOperator{"-", Operator::subtract, kSum},
-    BinaryOperator{"*", Operator::multiply, kProduct},
-    BinaryOperator{"/", Operator::divide, kProduct},
+    BinaryOperator{"or", Operator::logical_or, kOr},   BinaryOperator{"and", Operator::logical_and, kAnd},
+    BinaryOperator{"<", Operator::less, kCompare},     BinaryOperator{"<=", Operator::less_equal, kCompare},
+    BinaryOperator{">", Operator::greater, kCompare},  BinaryOperator{">=", Operator::greater_equal, kCompare},
+    BinaryOperator{"==", Operator::equal, kCompare},   BinaryOperator{"!=", Operator::not_equal, kCompare},
+    BinaryOperator{"+", Operator::add, kSum},          BinaryOperator{"-", Operator::subtract, kSum},
+    BinaryOperator{"*", Operator::multiply, kProduct}, BinaryOperator{"/", Operator::divide, kProduct},
     BinaryOperator{"mod", Operator::modulo, kProduct},
 };
 

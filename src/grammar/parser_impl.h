@@ -61,9 +61,16 @@ class Parser {
   bool at_declaration() const;
   void skip_to_declaration();
 
-  // Statements (parser_stmt.cpp)
+  // Blocks and recovery (parser_block.cpp)
   ast::Block block(std::string_view owner);
   void statement_into(ast::Block& block);
+  bool at_statement() const;
+  bool at_declaration_only() const;
+  bool at_new_line() const;
+  void recover();
+  [[noreturn]] void fail_statement();
+
+  // Statements (parser_stmt.cpp)
   ast::StmtPtr statement();
   ast::StmtPtr draw();
   void statement_body(ast::Stmt& stmt, std::string_view word);
@@ -80,11 +87,6 @@ class Parser {
   ast::Ref reference(std::string_view what);
   ast::Axis expect_axis();
   std::optional<ast::Axis> accept_axis();
-  bool at_statement() const;
-  bool at_declaration_only() const;
-  bool at_new_line() const;
-  void recover();
-  [[noreturn]] void fail_statement();
 
   // Expressions (parser_expr.cpp)
   ast::ExprPtr expression();

@@ -25,7 +25,8 @@ int distance(std::string_view a, std::string_view b) {
     row[0] = kStep * static_cast<int>(i);
     for (std::size_t j = 1; j <= b.size(); ++j) {
       row[j] = std::min({last[j] + kStep, row[j - 1] + kStep, last[j - 1] + replacement_cost(a[i - 1], b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + kStep);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + kStep);
     }
     std::swap(before, last);
     std::swap(last, row);

@@ -1,6 +1,8 @@
 #include "grammar/static_checks.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/core.h>
 
@@ -21,11 +23,13 @@ void StaticChecks::warning(std::string code, const Expr& expr, std::string messa
   if (fresh(&expr, code)) context_.diagnostics.warning(std::move(code), expr.span, std::move(message), std::move(help));
 }
 
-StaticChecks::Value StaticChecks::value(const Expr& expr, const StaticScope& scope) { return evaluate_static(expr, scope); }
+StaticChecks::Value StaticChecks::value(const Expr& expr, const StaticScope& scope) {
+  return evaluate_static(expr, scope);
+}
 
 void StaticChecks::expression(const Expr& expr, const StaticScope& scope) {
   Diagnostics found;
-  evaluate_static(expr, scope, &found);
+  if (evaluate_static(expr, scope, &found)) return;  // whatever is in it has a value too
   for (const Diagnostic& d : found.items()) error(d.code, expr, d.message, d.help);
   if (expr.kind == ExprKind::call && expr.name == "surface") surface(expr, scope);
   if (expr.kind == ExprKind::call && find_builtin(expr.name) && find_builtin(expr.name)->sort == BuiltinSort::primitive)
@@ -45,7 +49,8 @@ void StaticChecks::primitive(const Expr& expr, const StaticScope& scope) {
     if (!count)
       error("E0514", *arg.value, "the sides of a primitive must be constant", "only `top` may vary from part to part");
     else if (count->scalar() < kFewest || count->scalar() > kMost || count->scalar() != std::floor(count->scalar()))
-      error("E0514", *arg.value, fmt::format("the sides of a primitive must be a whole number in 3..1024, got {}", describe(*count)));
+      error("E0514", *arg.value,
+            fmt::format("the sides of a primitive must be a whole number in 3..1024, got {}", describe(*count)));
   }
 }
 
@@ -63,13 +68,35 @@ void StaticChecks::surface(const Expr& expr, const StaticScope& scope) {
                          given->text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
       if (!color) error("E0515", *arg.value, fmt::format("a colour is written \"#rrggbb\", got {}", describe(*given)));
     } else if (given->scalar() < 0 || (label != "glow" && given->scalar() > 1)) {
-      error("E0515", *arg.value, fmt::format("the {} of a surface must be {}, got {}", label,
-                                             label == "glow" ? ">= 0" : "in 0..1", describe(*given)));
+      error("E0515", *arg.value,
+            fmt::format("the {} of a surface must be {}, got {}", label, label == "glow" ? ">= 0" : "in 0..1",
+                        describe(*given)));
     }
   }
 }
 
+/// Whether an expression of the statement, as far as this looks at them, reads a loop variable.
+bool StaticChecks::reads_loop(const Stmt& stmt, const StaticScope& scope) {
+  const auto [place, fresh_statement] = reads_loop_.try_emplace(&stmt, false);
+  if (!fresh_statement) return place->second;
+  const std::function<bool(const Expr&)> reads = [&](const Expr& expr) {
+    return (expr.kind == ExprKind::name && scope.locals.contains(expr.name)) ||
+           std::any_of(expr.children.begin(), expr.children.end(), [&](const auto& child) { return reads(*child); }) ||
+           std::any_of(expr.args.begin(), expr.args.end(),
+                       [&](const ast::Arg& arg) { return reads(*arg.value) || (arg.label && reads(*arg.label)); });
+  };
+  bool found = false;
+  for (const ast::ExprPtr& expr : stmt.exprs) found = found || reads(*expr);
+  for (const ast::Case& one : stmt.cases) found = found || (one.value && reads(*one.value));
+  for (const std::optional<ast::Ref>* ref : {&stmt.target, &stmt.on_empty, &stmt.on_open})
+    if (*ref)
+      for (const ast::ExprPtr& arg : (*ref)->args) found = found || reads(*arg);
+  return place->second = found;
+}
+
 void StaticChecks::statement(const Stmt& stmt, const StaticScope& scope, bool in_rule) {
+  const bool seen = reads_loop_.contains(&stmt);
+  if (!reads_loop(stmt, scope) && seen) return;  // as it was in the turn before
   for (const ast::ExprPtr& expr : stmt.exprs) expression(*expr, scope);
   for (const std::optional<ast::Ref>* ref : {&stmt.target, &stmt.on_empty, &stmt.on_open})
     if (*ref)
@@ -89,7 +116,8 @@ void StaticChecks::statement(const Stmt& stmt, const StaticScope& scope, bool in
       if (const Value count = value(*stmt.exprs[0], scope)) {
         const double rounded = std::floor(count->scalar() + 0.5);
         if (rounded < 1 || rounded > 1024)
-          error("E0512", *stmt.exprs[0], fmt::format("the count of `around` must be in 1..1024, got {}", describe(*count)));
+          error("E0512", *stmt.exprs[0],
+                fmt::format("the count of `around` must be in 1..1024, got {}", describe(*count)));
       }
       return;
     case StmtKind::split: return sizes(stmt, scope);
@@ -108,7 +136,8 @@ void StaticChecks::lengths(const Stmt& stmt, const StaticScope& scope) {
     const double number = given->numbers[static_cast<std::size_t>(i)];
     if (number > 0 || (number == 0 && !scale)) continue;
     const std::string_view name = scale ? "scale" : stmt.kind == StmtKind::size ? "size" : "resize";
-    return error("E0513", *stmt.exprs[0], fmt::format("`{}` must be {} 0, got {}", name, scale ? ">" : ">=", describe(*given)),
+    return error("E0513", *stmt.exprs[0],
+                 fmt::format("`{}` must be {} 0, got {}", name, scale ? ">" : ">=", describe(*given)),
                  scale && number < 0 ? "`reflect` turns an axis around" : "");
   }
 }
@@ -125,7 +154,8 @@ void StaticChecks::sizes(const Stmt& stmt, const StaticScope& scope) {
     const Value size = value(*part.value, scope);
     const bool repeat = part.sizing == ast::Case::Sizing::repeat;
     if (size && (size->scalar() < 0 || (repeat && size->scalar() == 0)))
-      error("E0517", *part.value, fmt::format("a size in `split` must be {} 0, got {}", repeat ? ">" : ">=", describe(*size)));
+      error("E0517", *part.value,
+            fmt::format("a size in `split` must be {} 0, got {}", repeat ? ">" : ">=", describe(*size)));
   }
 }
 

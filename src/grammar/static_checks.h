@@ -1,7 +1,8 @@
 #pragma once
-// StaticChecks: the ranges that draws and statements ask for, wherever their values are known before the search. Private
-// to the checker.
+// StaticChecks: the ranges that draws and statements ask for, wherever their values are known before the search.
+// Private to the checker.
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -24,6 +25,7 @@ class StaticChecks {
   using Value = std::optional<StaticValue>;
 
   // static_checks.cpp
+  bool reads_loop(const ast::Stmt& stmt, const StaticScope& scope);
   Value value(const ast::Expr& expr, const StaticScope& scope);
   void error(std::string code, const ast::Expr& expr, std::string message, std::string help = {});
   void warning(std::string code, const ast::Expr& expr, std::string message, std::string help = {});
@@ -46,6 +48,7 @@ class StaticChecks {
 
   CheckContext& context_;
   std::set<std::pair<const void*, std::string>> reported_{};
+  std::map<const ast::Stmt*, bool> reads_loop_{};
 };
 
 }  // namespace espalier

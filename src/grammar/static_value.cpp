@@ -192,7 +192,8 @@ class Evaluator {
     for (const StaticValue& argument : arguments) kinds.push_back(argument.kind);
     const std::optional<Kind> kind = kind_of_function(expr.name, kinds);
     if (!kind || *kind == Kind::material) return std::nullopt;
-    if (kinds[0] == Kind::vector || *kind == Kind::vector) return finite(expr, vector_function(expr.name, *kind, arguments));
+    if (kinds[0] == Kind::vector || *kind == Kind::vector)
+      return finite(expr, vector_function(expr.name, *kind, arguments));
     const auto argument = [&](std::size_t i) { return i < arguments.size() ? arguments[i].scalar() : 0.0; };
     return finite(expr, {*kind, {apply_function(expr.name, argument(0), argument(1), argument(2)), 0, 0}, {}});
   }

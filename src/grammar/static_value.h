@@ -17,8 +17,8 @@ namespace espalier {
 
 struct CheckedGrammar;
 
-/// number: numbers[0], lengths in metres; angle: numbers[0] in radians; vector: all three; boolean: numbers[0] is 0 or 1;
-/// text: `text` is the contents; mesh, material: `text` is the declared name or the primitive.
+/// number: numbers[0], lengths in metres; angle: numbers[0] in radians; vector: all three; boolean: numbers[0] is 0 or
+/// 1; text: `text` is the contents; mesh, material: `text` is the declared name or the primitive.
 struct StaticValue {
   Kind kind = Kind::number;
   std::array<double, 3> numbers{};
@@ -49,8 +49,8 @@ struct StaticScope {
 /// A literal number with its unit applied: degrees to radians, cm and mm to m, percent to a fraction.
 StaticValue literal_value(const ast::Expr& number);
 
-/// The value, or nothing where the expression is not static or has an error (kind, division by zero, not finite). Errors
-/// go to `diagnostics`, if given; being not static is none. Double arithmetic.
+/// The value, or nothing where the expression is not static or has an error (kind, division by zero, not finite).
+/// Errors go to `diagnostics`, if given; being not static is none. Double arithmetic.
 std::optional<StaticValue> evaluate_static(const ast::Expr& expr, const StaticScope& scope,
                                            Diagnostics* diagnostics = nullptr);
 

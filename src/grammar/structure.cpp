@@ -56,8 +56,7 @@ class StructureChecker {
     if (stmt.kind == StmtKind::spawn)
       error("E0402", stmt.span, "a detail never spawns: genes are made by rules alone",
             "call another detail with `detail NAME`, or make this a rule");
-    if (stmt.kind == StmtKind::bone)
-      error("E0402", stmt.span, "a detail makes no bones", "bones belong to rules");
+    if (stmt.kind == StmtKind::bone) error("E0402", stmt.span, "a detail makes no bones", "bones belong to rules");
     if (stmt.kind == StmtKind::emit && stmt.as_proxy)
       error("E0402", stmt.span, "a detail has no proxies", "`as proxy` in a rule stands in for its details");
   }
@@ -75,7 +74,8 @@ class StructureChecker {
             "`childless` tells which slots are filled, so it decides only what is shown: call a detail");
     else
       error("E0403", stmt.span,
-            fmt::format("an `if` on more than constants holds no {}, so that what can grow is known before the search", what),
+            fmt::format("an `if` on more than constants holds no {}, so that what can grow is known before the search",
+                        what),
             what == "slot" ? "a guard, `rule NAME when ...`, or the probability may depend on depth"
                            : "move it out of the `if`, or into a detail");
   }
@@ -102,9 +102,11 @@ class StructureChecker {
 
   /// Reads only literals, consts and loop variables, and functions of those.
   bool constant(const Expr& expr) const {
-    if (expr.kind == ExprKind::name) return loops_.contains(expr.name) || context_.checked.find(expr.name, ast::DeclKind::constant);
+    if (expr.kind == ExprKind::name)
+      return loops_.contains(expr.name) || context_.checked.find(expr.name, ast::DeclKind::constant);
     if (expr.kind == ExprKind::call && (expr.name == "depth" || reader_of_attribute(expr) == &expr)) return false;
-    return std::all_of(expr.children.begin(), expr.children.end(), [&](const auto& child) { return constant(*child); }) &&
+    return std::all_of(expr.children.begin(), expr.children.end(),
+                       [&](const auto& child) { return constant(*child); }) &&
            std::all_of(expr.args.begin(), expr.args.end(), [&](const auto& arg) { return constant(*arg.value); });
   }
 
@@ -150,7 +152,8 @@ class StructureChecker {
         error("E0409", one.span, fmt::format("`comp` knows no face `{}`", one.face),
               "front, back, right, left, top, bottom, sides or all");
       else if (!seen.insert(one.face).second)
-        error("E0409", one.span, fmt::format("the face `{}` is named twice", one.face), "each face goes to the first line naming it");
+        error("E0409", one.span, fmt::format("the face `{}` is named twice", one.face),
+              "each face goes to the first line naming it");
     }
     if (stmt.cases.empty()) error("E0408", stmt.span, "`comp` names at least one face, got none");
   }

@@ -1,5 +1,5 @@
-// The checker's walk over bodies as they will be compiled: in rules, loops are unrolled and constant conditions decided.
-// It counts what a rule holds and looks at every value that is known by then.
+// The checker's walk over bodies as they will be compiled: in rules, loops are unrolled and constant conditions
+// decided. It counts what a rule holds and looks at every value that is known by then.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ using ast::Decl;
 using ast::Stmt;
 using ast::StmtKind;
 
-constexpr std::size_t kMostStatements = 100'000;        // of one rule
+constexpr std::size_t kMostStatements = 100'000;  // of one rule
 constexpr std::size_t kMostStatementsOfAll = 1'000'000;
 constexpr std::size_t kMostSlots = 65'535;
 constexpr std::size_t kMostDraws = 65'535;
@@ -25,12 +25,14 @@ constexpr double kMostVariants = 256;
 
 class Unroller {
  public:
-  explicit Unroller(CheckContext& context) : context_(context), samples_(context), checks_(context), scope_{context.checked} {}
+  explicit Unroller(CheckContext& context)
+      : context_(context), samples_(context), checks_(context), scope_{context.checked} {}
 
   void run() {
     context_.spawns.resize(context_.decls().size());
     for (const Decl& decl : context_.decls()) {
-      if (decl.kind == ast::DeclKind::mesh || decl.kind == ast::DeclKind::material) checks_.expression(*decl.value, scope_);
+      if (decl.kind == ast::DeclKind::mesh || decl.kind == ast::DeclKind::material)
+        checks_.expression(*decl.value, scope_);
       if (decl.kind == ast::DeclKind::function) checks_.expression(*decl.value, scope_);
       if (decl.kind == ast::DeclKind::rule) rule(decl);
       if (decl.kind == ast::DeclKind::detail) detail(decl);
@@ -57,7 +59,8 @@ class Unroller {
     const auto most = [&](std::string code, double count, double limit, std::string_view what, std::string help) {
       if (count > limit)
         error(std::move(code), decl.name_span,
-              fmt::format("a rule has at most {:.0f} {}, and `{}` has {:.0f}", limit, what, decl.name, count), std::move(help));
+              fmt::format("a rule has at most {:.0f} {}, and `{}` has {:.0f}", limit, what, decl.name, count),
+              std::move(help));
     };
     most("E0602", variants, kMostVariants, "variants (one per combination of its `choose` alternatives)",
          "move a `choose` to a rule of its own, or write `maybe .. else`");
@@ -80,8 +83,10 @@ class Unroller {
       too_large_ = true;
       const bool one = statements_ > kMostStatements;
       error("E0604", decl_->name_span,
-            one ? fmt::format("`{}` has more than {} statements once its loops are unrolled", decl_->name, kMostStatements)
-                : fmt::format("the grammar has more than {} statements once all loops are unrolled", kMostStatementsOfAll),
+            one ? fmt::format("`{}` has more than {} statements once its loops are unrolled", decl_->name,
+                              kMostStatements)
+                : fmt::format("the grammar has more than {} statements once all loops are unrolled",
+                              kMostStatementsOfAll),
             "what need not be searched over can loop in a detail");
     }
     return !too_large_;
@@ -175,8 +180,10 @@ class Unroller {
       const std::string help = p->scalar() >= 1 && !varies ? "a child that always comes is `spawn` without `maybe`"
                                : varies ? "bound it with `clamp`, or the depth with a guard: `rule NAME when depth < N`"
                                         : "delete a spawn that never happens";
-      error("E0511", expr.span, fmt::format("a probability must be > 0 and < 1, got {}{}", describe(*p),
-                                            varies ? fmt::format(" at depth {}", depth) : ""), help);
+      error("E0511", expr.span,
+            fmt::format("a probability must be > 0 and < 1, got {}{}", describe(*p),
+                        varies ? fmt::format(" at depth {}", depth) : ""),
+            help);
       return false;
     });
   }
@@ -193,7 +200,8 @@ class Unroller {
         const auto weight = evaluate_static(*one.value, scope);
         if (!weight) return false;
         const bool may_be_zero = samples_.reads_depth(*one.value);
-        if (weight->scalar() < 0 || (weight->scalar() == 0 && !may_be_zero)) return refuse_weight(stmt, *one.value, *weight, depth);
+        if (weight->scalar() < 0 || (weight->scalar() == 0 && !may_be_zero))
+          return refuse_weight(stmt, *one.value, *weight, depth);
         total += weight->scalar();
       }
       if (total == 0) return refuse_weight(stmt, *stmt.cases[0].value, StaticValue::number(0), depth);
@@ -205,7 +213,8 @@ class Unroller {
     faulty_.insert(&stmt);
     const std::string where = samples_.reads_depth(expr) ? fmt::format(" at depth {}", depth) : "";
     error("E0510", expr.span, fmt::format("a weight must be > 0, got {}{}", describe(weight), where),
-          where.empty() ? "delete an alternative that is never chosen" : "weights on depth may be 0, but not all at once");
+          where.empty() ? "delete an alternative that is never chosen"
+                        : "weights on depth may be 0, but not all at once");
     return false;
   }
 
@@ -214,7 +223,8 @@ class Unroller {
     if (!start.guard) return;
     const auto holds = evaluate_static(*start.guard, samples_.at(0, [](const std::string&) { return 0.0; }));
     if (holds && !holds->truth())
-      error("E0518", start.guard->span, fmt::format("the guard of the start rule `{}` must hold at depth 0", start.name));
+      error("E0518", start.guard->span,
+            fmt::format("the guard of the start rule `{}` must hold at depth 0", start.name));
   }
 
   CheckContext& context_;

@@ -65,9 +65,10 @@ void report_cycle(CheckContext& context, std::vector<char>& done, std::size_t fr
     if (step - begin < kShown) names += fmt::format("`{}` -> ", context.decls()[*step].name);
   }
   const Decl& decl = context.decls()[at];
-  context.diagnostics.error("E0212", decl.name_span, fmt::format("the {} `{}` reads itself: {}`{}`", word_of(decl.kind),
-                                                                 decl.name, names, decl.name),
-                            "repetition is a rule or a detail that refers to itself");
+  context.diagnostics.error(
+      "E0212", decl.name_span,
+      fmt::format("the {} `{}` reads itself: {}`{}`", word_of(decl.kind), decl.name, names, decl.name),
+      "repetition is a rule or a detail that refers to itself");
 }
 
 /// Sizes of what is left once calls are written out, and what functions read through others. False where too large.
@@ -86,9 +87,9 @@ bool follow_calls(CheckContext& context) {
     }
     if (decl.kind != DeclKind::function || (size[i] <= kMostCalls && depth[i] <= kDeepestCalls)) continue;
     fits = false;
-    context.diagnostics.error("E0213", decl.name_span,
-                              fmt::format("one call of `{}` may lead to at most {} calls, {} deep", decl.name, kMostCalls,
-                                          kDeepestCalls));
+    context.diagnostics.error(
+        "E0213", decl.name_span,
+        fmt::format("one call of `{}` may lead to at most {} calls, {} deep", decl.name, kMostCalls, kDeepestCalls));
     size[i] = depth[i] = 1;  // one report for the chain
   }
   return fits;

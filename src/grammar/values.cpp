@@ -20,10 +20,10 @@ std::optional<StaticValue> require_static(CheckContext& context, const Decl& dec
   const StaticScope scope{context.checked, false, {}};
   std::optional<StaticValue> value = evaluate_static(expr, scope, &context.diagnostics);
   if (!value && context.diagnostics.error_count() == before)
-    context.diagnostics.error("E0504", expr.span,
-                              fmt::format("the value of the {} `{}` must be known before anything else", word_of(decl.kind),
-                                          decl.name),
-                              "it reads only literals and consts, and functions of those");
+    context.diagnostics.error(
+        "E0504", expr.span,
+        fmt::format("the value of the {} `{}` must be known before anything else", word_of(decl.kind), decl.name),
+        "it reads only literals and consts, and functions of those");
   return value;
 }
 
@@ -41,8 +41,9 @@ void evaluate_attribute(CheckContext& context, const Decl& decl) {
     attribute.low = low->scalar();
     attribute.high = high->scalar();
     if (!(attribute.low < attribute.high))
-      context.diagnostics.error("E0701", decl.low->span, fmt::format("the range of `{}` is empty: {}..{}", decl.name,
-                                                                     describe(*low), describe(*high)));
+      context.diagnostics.error(
+          "E0701", decl.low->span,
+          fmt::format("the range of `{}` is empty: {}..{}", decl.name, describe(*low), describe(*high)));
     else if (value->scalar() < attribute.low || value->scalar() > attribute.high)
       context.diagnostics.error("E0702", decl.value->span,
                                 fmt::format("the default of `{}` is {}, outside its range {}..{}", decl.name,
@@ -74,8 +75,8 @@ void override_attribute(CheckContext& context, const std::string& name, const st
     std::vector<std::string_view> names;
     for (const auto& [known, attribute] : context.checked.attributes) names.push_back(known);
     const std::string help = did_you_mean(name, names);
-    context.diagnostics.error("E0703", kNowhere, fmt::format("there is no attr `{}` to set{}{}", name,
-                                                             help.empty() ? "" : "; ", help));
+    context.diagnostics.error("E0703", kNowhere,
+                              fmt::format("there is no attr `{}` to set{}{}", name, help.empty() ? "" : "; ", help));
     return;
   }
   CheckedAttribute& attribute = found->second;
@@ -89,8 +90,9 @@ void override_attribute(CheckContext& context, const std::string& name, const st
     StaticValue low = attribute.default_value, high = low;
     low.numbers[0] = attribute.low;
     high.numbers[0] = attribute.high;
-    context.diagnostics.error("E0705", kNowhere, fmt::format("the attr `{}` must be in {}..{}, got {}", name,
-                                                             describe(low), describe(high), describe(*value)));
+    context.diagnostics.error(
+        "E0705", kNowhere,
+        fmt::format("the attr `{}` must be in {}..{}, got {}", name, describe(low), describe(high), describe(*value)));
   } else {
     attribute.value = *value;
   }
@@ -103,7 +105,8 @@ void evaluate_values(CheckContext& context) {
     const Decl& decl = context.decls()[index];
     if (decl.kind == DeclKind::attribute) evaluate_attribute(context, decl);
     if (decl.kind != DeclKind::constant) continue;
-    if (auto value = require_static(context, decl, *decl.value)) context.checked.constants[decl.name] = std::move(*value);
+    if (auto value = require_static(context, decl, *decl.value))
+      context.checked.constants[decl.name] = std::move(*value);
   }
   for (const auto& [name, text] : context.attribute_overrides) override_attribute(context, name, text);
 }

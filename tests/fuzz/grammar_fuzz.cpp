@@ -24,7 +24,8 @@ Outcome run(std::string_view source) {
   ast::Grammar grammar = parse(source, diagnostics);
   std::map<std::string, std::string> overrides;  // the label of the first attr that has one serves as its value
   for (const ast::Decl& decl : grammar.decls)
-    if (decl.kind == ast::DeclKind::attribute && !decl.label.empty() && overrides.empty()) overrides[decl.name] = decl.label;
+    if (decl.kind == ast::DeclKind::attribute && !decl.label.empty() && overrides.empty())
+      overrides[decl.name] = decl.label;
   const auto checked = check(std::move(grammar), overrides, diagnostics);
   for (const Diagnostic& d : diagnostics.items()) CHECK(std::size_t{d.span.offset} + d.span.length <= source.size());
   CHECK(checked.has_value() == !diagnostics.has_errors());

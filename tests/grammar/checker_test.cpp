@@ -27,7 +27,8 @@ struct Checked {
 
 Checked check_text(const std::string& declarations, const std::map<std::string, std::string>& overrides = {}) {
   Checked result;
-  result.grammar = check(parse("grammar g 1 start A " + declarations, result.diagnostics), overrides, result.diagnostics);
+  result.grammar =
+      check(parse("grammar g 1 start A " + declarations, result.diagnostics), overrides, result.diagnostics);
   return result;
 }
 
@@ -69,7 +70,8 @@ TEST(Checker, MarksKindsInTheTree) {
 }
 
 TEST(Checker, TellsWhatIsReachable) {
-  const Checked checked = check_text("rule A { spawn B } rule B { detail C } detail C { } rule D { spawn E } rule E { }");
+  const Checked checked =
+      check_text("rule A { spawn B } rule B { detail C } detail C { } rule D { spawn E } rule E { }");
   ASSERT_TRUE(checked.grammar);
   EXPECT_TRUE(checked.grammar->reachable.at("C"));
   EXPECT_FALSE(checked.grammar->reachable.at("D"));
@@ -80,7 +82,8 @@ TEST(Checker, TellsWhatIsReachable) {
 TEST(Checker, LetsDetailsUseWhatIsDynamic) {
   const Checked checked = check_text(
       "attr n = 3 rule A { start_k ~ uniform(1, 2) detail D(start_k) } "
-      "detail D(k) { m ~ integer(0, k * n) for i in 0..m { for j in [i, m] { c ~ chance(k / 2) if c { move x j emit box } } } "
+      "detail D(k) { m ~ integer(0, k * n) for i in 0..m { for j in [i, m] { c ~ chance(k / 2) if c { move x j emit "
+      "box } } } "
       "choose { k: { u ~ normal(k, k, -k, k) size u } m: { if depth > n { emit leaf } } } around y m { emit box } }");
   EXPECT_TRUE(checked.grammar) << render(checked.diagnostics, "", "");
   EXPECT_THAT(checked.codes(), IsEmpty());
@@ -91,7 +94,8 @@ const char* const kAttributes =
     "rule A { size tall move x free turn y lean if open { emit box } }";
 
 TEST(Checker, OverridesAttributes) {
-  const Checked checked = check_text(kAttributes, {{"tall", "200cm"}, {"lean", "45deg"}, {"open", "true"}, {"free", "-1e3"}});
+  const Checked checked =
+      check_text(kAttributes, {{"tall", "200cm"}, {"lean", "45deg"}, {"open", "true"}, {"free", "-1e3"}});
   ASSERT_TRUE(checked.grammar) << render(checked.diagnostics, "", "");
   const auto& attributes = checked.grammar->attributes;
   EXPECT_DOUBLE_EQ(attributes.at("tall").value.scalar(), 2);
@@ -138,8 +142,10 @@ TEST(Checker, LimitsTheNumberOfRules) {
 // The expected number of children of B decides, to the last digit.
 TEST(Checker, DrawsTheLineAtASpectralRadiusOfOne) {
   const auto accepted = [](const std::string& probability) {
-    return check_text("rule A { spawn B } rule B { emit box for i in 0..3 { maybe " + probability + " spawn C } } "
-                      "rule C { maybe 0.5 spawn B  maybe 0.5 spawn B }").grammar.has_value();
+    return check_text("rule A { spawn B } rule B { emit box for i in 0..3 { maybe " + probability +
+                      " spawn C } } "
+                      "rule C { maybe 0.5 spawn B  maybe 0.5 spawn B }")
+        .grammar.has_value();
   };
   EXPECT_TRUE(accepted("0.2499"));
   EXPECT_FALSE(accepted("0.25"));
@@ -149,14 +155,19 @@ TEST(Checker, DrawsTheLineAtASpectralRadiusOfOne) {
 TEST(Checker, FindsCyclesThatOnlyAlternate) {
   // A -> B -> A ..., twice 2 * 0.4 each way: radius 0.8 * 1.3 > 1 although B alone makes less than one.
   EXPECT_THAT(check_text("rule A { spawn B } rule B { emit box maybe 0.4 spawn C maybe 0.4 spawn C } "
-                         "rule C { spawn B  maybe 0.3 spawn B }").codes(), ElementsAre("E0802"));
+                         "rule C { spawn B  maybe 0.3 spawn B }")
+                  .codes(),
+              ElementsAre("E0802"));
   EXPECT_THAT(check_text("rule A { spawn B } rule B { emit box maybe 0.4 spawn C maybe 0.4 spawn C } "
-                         "rule C { spawn B  maybe 0.2 spawn B }").codes(), IsEmpty());
+                         "rule C { spawn B  maybe 0.2 spawn B }")
+                  .codes(),
+              IsEmpty());
 }
 
 TEST(Checker, TakesChoicesByTheirWeights) {
   const auto rule = [](int weight) {
-    return fmt::format("rule A {{ spawn B }} rule B {{ choose {{ {}: {{ emit box }} 2: {{ spawn B  spawn B }} }} }}", weight);
+    return fmt::format("rule A {{ spawn B }} rule B {{ choose {{ {}: {{ emit box }} 2: {{ spawn B  spawn B }} }} }}",
+                       weight);
   };
   EXPECT_THAT(check_text(rule(2)).codes(), ElementsAre("E0802"));
   EXPECT_THAT(check_text(rule(3)).codes(), IsEmpty());
@@ -164,7 +175,8 @@ TEST(Checker, TakesChoicesByTheirWeights) {
 
 TEST(Checker, WarnsOfManyGenesBehindAGuard) {
   const auto codes = [](int depth) {
-    return check_text(fmt::format("rule A {{ spawn B }} rule B when depth < {} {{ emit box spawn B spawn B }}", depth)).codes();
+    return check_text(fmt::format("rule A {{ spawn B }} rule B when depth < {} {{ emit box spawn B spawn B }}", depth))
+        .codes();
   };
   EXPECT_THAT(codes(19), IsEmpty());             // 2^18 genes
   EXPECT_THAT(codes(22), ElementsAre("W0803"));  // 2^21
@@ -173,13 +185,18 @@ TEST(Checker, WarnsOfManyGenesBehindAGuard) {
 TEST(Checker, CountsDepthPerRuleInTheExpectedSize) {
   // Only every other gene is a B, so the guard on depth(B) lets the tree grow twice as deep.
   EXPECT_THAT(check_text("rule A { spawn B } rule B when depth(B) < 9 { emit box spawn C spawn C } "
-                         "rule C { spawn B spawn B }").codes(), IsEmpty());
+                         "rule C { spawn B spawn B }")
+                  .codes(),
+              IsEmpty());
   EXPECT_THAT(check_text("rule A { spawn B } rule B when depth(B) < 10 { emit box spawn C spawn C } "
-                         "rule C { spawn B spawn B }").codes(), ElementsAre("W0803"));
+                         "rule C { spawn B spawn B }")
+                  .codes(),
+              ElementsAre("W0803"));
 }
 
 TEST(Checker, LetsLimitsBoundTheExpectedSize) {
-  EXPECT_THAT(check_text("rule A { spawn B } rule B limit 50 { emit box for i in 0..9 { maybe 0.9 spawn B } }").codes(), IsEmpty());
+  EXPECT_THAT(check_text("rule A { spawn B } rule B limit 50 { emit box for i in 0..9 { maybe 0.9 spawn B } }").codes(),
+              IsEmpty());
 }
 
 TEST(Checker, KnowsThatAbsentSlotsEndRequiredRecursion) {

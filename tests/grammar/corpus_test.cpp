@@ -1,4 +1,5 @@
-// Every grammar of the corpus: those in pass/ check, those in fail/ do not, and each gives exactly the diagnostics that its
+// Every grammar of the corpus: those in pass/ check, those in fail/ do not, and each gives exactly the diagnostics that
+// its
 // `#! CODE LINE:COLUMN` comments announce, warnings included.
 
 #include <algorithm>
@@ -81,7 +82,8 @@ TEST(Corpus, WhatShouldFailFailsAsAnnounced) {
 std::set<std::string> codes_in(const std::string& text) {
   std::set<std::string> codes;
   for (std::size_t i = 0; i + 5 <= text.size(); ++i) {
-    const bool letter = (text[i] == 'E' || text[i] == 'W') && (i == 0 || !std::isalnum(static_cast<unsigned char>(text[i - 1])));
+    const bool letter =
+        (text[i] == 'E' || text[i] == 'W') && (i == 0 || !std::isalnum(static_cast<unsigned char>(text[i - 1])));
     if (letter && std::all_of(text.begin() + static_cast<long>(i) + 1, text.begin() + static_cast<long>(i) + 5,
                               [](unsigned char c) { return std::isdigit(c); }))
       codes.insert(text.substr(i, 5));

@@ -38,8 +38,8 @@ TEST(Docs, EveryExampleOfTheLanguagePageChecks) {
   for (const Fence& example : examples) {
     Diagnostics diagnostics;
     const auto checked = check(parse(example.text, diagnostics), {}, diagnostics);
-    EXPECT_TRUE(checked && diagnostics.items().empty())
-        << "docs/language.md, line " << example.line << "\n" << render(diagnostics, "example", example.text);
+    EXPECT_TRUE(checked && diagnostics.items().empty()) << "docs/language.md, line " << example.line << "\n"
+                                                        << render(diagnostics, "example", example.text);
   }
 }
 

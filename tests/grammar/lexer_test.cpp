@@ -29,8 +29,8 @@ Token first(std::string_view source) {
 }
 
 TEST(Lexer, TakesTheLongestSymbol) {
-  EXPECT_THAT(texts("a->b<=c<d..e.x!=f=="), testing::ElementsAre("a", "->", "b", "<=", "c", "<", "d", "..", "e", ".", "x",
-                                                                "!=", "f", "==", ""));
+  EXPECT_THAT(texts("a->b<=c<d..e.x!=f=="),
+              testing::ElementsAre("a", "->", "b", "<=", "c", "<", "d", "..", "e", ".", "x", "!=", "f", "==", ""));
 }
 
 TEST(Lexer, TellsRangesFromDecimals) {
@@ -71,8 +71,8 @@ TEST(Lexer, CountsLinesAndColumnsInBytes) {
 
 TEST(Lexer, HoldsTextsToUtf8WithoutControls) {
   EXPECT_EQ(first("\"\xf0\x9f\x8c\xb3 tree\"").text, "\xf0\x9f\x8c\xb3 tree");
-  EXPECT_THAT(codes("\"\xc0\xaf\""), testing::ElementsAre("E0104"));       // overlong
-  EXPECT_THAT(codes("\"\xed\xa0\x80\""), testing::ElementsAre("E0104"));   // surrogate
+  EXPECT_THAT(codes("\"\xc0\xaf\""), testing::ElementsAre("E0104"));      // overlong
+  EXPECT_THAT(codes("\"\xed\xa0\x80\""), testing::ElementsAre("E0104"));  // surrogate
   EXPECT_THAT(codes("\"\xf5\x80\x80\x80\""), testing::ElementsAre("E0104"));
   EXPECT_THAT(codes("\"a\tb\""), testing::ElementsAre("E0104"));
   EXPECT_THAT(codes("\"open"), testing::ElementsAre("E0102"));

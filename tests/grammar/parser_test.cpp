@@ -21,11 +21,12 @@ std::vector<std::string> codes(const Diagnostics& diagnostics) {
 
 /// An expression with its structure in parentheses.
 std::string shape(const ast::Expr& expr) {
-  static constexpr const char* kOperators[] = {"?", "-", "not", "+", "-", "*", "/", "mod", "^",
-                                               "<", "<=", ">", ">=", "==", "!=", "and", "or"};
+  static constexpr const char* kOperators[] = {"?", "-",  "not", "+",  "-",  "*",  "/",   "mod", "^",
+                                               "<", "<=", ">",   ">=", "==", "!=", "and", "or"};
   std::string parts;
   for (const auto& child : expr.children) parts += " " + shape(*child);
-  for (const auto& arg : expr.args) parts += " " + (arg.label ? shape(*arg.label) + ":" : std::string()) + shape(*arg.value);
+  for (const auto& arg : expr.args)
+    parts += " " + (arg.label ? shape(*arg.label) + ":" : std::string()) + shape(*arg.value);
   switch (expr.kind) {
     case ExprKind::number: return fmt::format("{}", expr.value);
     case ExprKind::text: return fmt::format("'{}'", expr.name);
@@ -49,7 +50,9 @@ ast::Grammar parse_body(const std::string& body, Diagnostics& diagnostics) {
   return parse("grammar g 1\nstart A\nrule A {" + body + "}\n", diagnostics);
 }
 
-const ast::Stmt& statement(const ast::Grammar& grammar, std::size_t i) { return *grammar.decls.at(1).body.statements.at(i); }
+const ast::Stmt& statement(const ast::Grammar& grammar, std::size_t i) {
+  return *grammar.decls.at(1).body.statements.at(i);
+}
 
 TEST(Parser, BindsOperatorsByPrecedence) {
   EXPECT_EQ(shape_of("a or b and not c < d"), "(or a (and b (not (< c d))))");
@@ -73,7 +76,8 @@ TEST(Parser, TellsVectorsFromParentheses) {
 }
 
 TEST(Parser, RefusesWhatIsNoExpression) {
-  for (const char* source : {"", "1 +", "a < b < c", "(1, 2)", "(1, 2, 3, 4)", "scope.w", "f(1", "+1", "1 2", "a.", "spawn", "[1]"})
+  for (const char* source :
+       {"", "1 +", "a < b < c", "(1, 2)", "(1, 2, 3, 4)", "scope.w", "f(1", "+1", "1 2", "a.", "spawn", "[1]"})
     EXPECT_EQ(shape_of(source), "E0110 1") << source;
 }
 
@@ -107,7 +111,8 @@ detail D { }
 
 TEST(Parser, NeedsNothingBetweenStatements) {
   Diagnostics diagnostics;
-  const ast::Grammar grammar = parse_body("let a = b  k ~ uniform(0, 1) move y -k turn (1, 0, 1) 3deg { emit box }", diagnostics);
+  const ast::Grammar grammar =
+      parse_body("let a = b  k ~ uniform(0, 1) move y -k turn (1, 0, 1) 3deg { emit box }", diagnostics);
   EXPECT_FALSE(diagnostics.has_errors()) << render(diagnostics, "test", "");
   ASSERT_EQ(grammar.decls.at(1).body.statements.size(), 5u);
   EXPECT_EQ(statement(grammar, 0).kind, StmtKind::let);
@@ -118,7 +123,8 @@ TEST(Parser, NeedsNothingBetweenStatements) {
 
 TEST(Parser, ReadsSlots) {
   Diagnostics diagnostics;
-  const ast::Grammar grammar = parse_body("maybe 0.5 spawn B(1, 2) else detail C otherwise detail D(3) spawn E", diagnostics);
+  const ast::Grammar grammar =
+      parse_body("maybe 0.5 spawn B(1, 2) else detail C otherwise detail D(3) spawn E", diagnostics);
   EXPECT_FALSE(diagnostics.has_errors());
   const ast::Stmt& slot = statement(grammar, 0);
   EXPECT_EQ(slot.target->args.size(), 2u);
@@ -157,7 +163,8 @@ TEST(Parser, GoesOnAfterAnError) {
 
 TEST(Parser, GoesOnAtTheNextDeclaration) {
   Diagnostics diagnostics;
-  const ast::Grammar grammar = parse("grammar g 1\nconst = 3\nrule A( { emit box }\nstart B\nrule C { {\nrule B { }\n", diagnostics);
+  const ast::Grammar grammar =
+      parse("grammar g 1\nconst = 3\nrule A( { emit box }\nstart B\nrule C { {\nrule B { }\n", diagnostics);
   EXPECT_THAT(codes(diagnostics), ElementsAre("E0110 2", "E0110 3", "E0113 5", "E0113 5"));
   EXPECT_EQ(grammar.decls.back().name, "B");
 }

@@ -16,7 +16,9 @@ namespace {
 CheckedGrammar checked() {
   Diagnostics diagnostics;
   auto grammar = check(parse("grammar g 1 start A const c = 3 attr t = 2 fn twice(v) = 2 * v mesh m = box "
-                             "rule A { size c * t * twice(1) emit m }", diagnostics), {}, diagnostics);
+                             "rule A { size c * t * twice(1) emit m }",
+                             diagnostics),
+                       {}, diagnostics);
   EXPECT_FALSE(diagnostics.has_errors());
   return std::move(*grammar);
 }
@@ -106,7 +108,8 @@ std::string list_of(const std::string& list) {
   const CheckedGrammar grammar = checked();
   Diagnostics diagnostics;
   const ast::Grammar loop = parse("grammar g 1 rule A { for i in " + list + " { } }", diagnostics);
-  const auto values = evaluate_static_list(loop.decls.at(0).body.statements.at(0)->list, StaticScope{grammar}, &diagnostics);
+  const auto values =
+      evaluate_static_list(loop.decls.at(0).body.statements.at(0)->list, StaticScope{grammar}, &diagnostics);
   std::string text;
   if (!values) return diagnostics.items().empty() ? "none" : diagnostics.items()[0].code;
   for (const StaticValue& value : *values) text += describe(value) + " ";
