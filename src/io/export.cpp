@@ -34,11 +34,18 @@ void export_model(const std::string& path, const Model& model, const MeshTable& 
   }
   const Parts parts = collect_parts(model, meshes, options.full);
   const WriterInput input{parts, materials, provenance, model_name(path, provenance)};
-  if (ending == ".glb") return write_file(path, write_glb(input, options.gpu_instancing));
-  if (ending == ".ply") return write_file(path, write_ply(input));
-  if (ending == ".stl") return write_file(path, write_stl(input));
+  const auto named = [&](const auto& write) {
+    try {
+      return write();
+    } catch (const Error& e) {
+      throw Error(fmt::format("{}: {}", path, e.what()));
+    }
+  };
+  if (ending == ".glb") return write_file(path, named([&] { return write_glb(input, options.gpu_instancing); }));
+  if (ending == ".ply") return write_file(path, named([&] { return write_ply(input); }));
+  if (ending == ".stl") return write_file(path, named([&] { return write_stl(input); }));
   const std::filesystem::path mtl = std::filesystem::path(file).replace_extension(".mtl");
-  const ObjFiles files = write_obj(input, mtl.filename().string());
+  const ObjFiles files = named([&] { return write_obj(input, mtl.filename().string()); });
   StagedFile staged_obj(path, files.obj), staged_mtl(mtl.string(), files.mtl);
   staged_mtl.commit();
   staged_obj.commit();

@@ -265,6 +265,13 @@ TEST(Export, RefusesOtherEndings) {
   }
 }
 
+TEST(Export, NamesTheFileWhoseProvenanceIsNotText) {
+  Provenance broken = test_provenance();
+  broken.engine = "\xff";
+  const std::string error = error_of([&] { export_model("/tmp/x.glb", {}, primitive_table(), {}, broken); });
+  EXPECT_TRUE(error.starts_with("/tmp/x.glb: provenance: ")) << error;
+}
+
 TEST(Export, EndingsMayBeUpperCase) {
   const TemporaryFolder folder;
   export_model(folder / "A.GLB", mixed_model(), primitive_table(), {}, {});
