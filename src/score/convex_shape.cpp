@@ -99,7 +99,6 @@ void ConvexShape::set_origin(const Lattice& lattice, const double centre[3]) {
 }
 
 void ConvexShape::set_planes(const Solid& solid, double top) {
-  planes.clear();
   for (const Plane& plane : solid.planes) {
     Plane p = plane;
     if (kind == SolidKind::prism) {  // n . (x, z) <= offset * (1 + (top - 1) * (y + 1/2))
@@ -117,6 +116,7 @@ void ConvexShape::set_planes(const Solid& solid, double top) {
 
 bool ConvexShape::set(const Lattice& lattice, const Solid& solid, const Placement& placement, float instance_top) {
   kind = solid.kind;
+  planes.clear();
   double top = 1;
   if (solid.tapered) {
     top = instance_top > 0 ? double{instance_top} : 0.0;

@@ -37,9 +37,10 @@ void validate(const VoxelGrid& grid, const char* name);
 VoxelGrid default_grid(std::span<const Mesh> targets, std::uint64_t cells = 2'000'000);
 
 /// Where exactly a voxel is sampled: its centre moved by these parts of a cell along x, y, z. A face that lies on
-/// centres, common in grammars with round numbers, is so decided in one way everywhere: the voxel belongs to the solid
-/// on the +z side, for faces along z on the +x side, then +y. Boxes that touch never overlap.
-inline constexpr double kSampleNudge[3] = {0x1p-26, 0x1p-32, 0x1p-20};
+/// centres, common in grammars with round numbers, is so decided in one way everywhere, whatever the rounding of the
+/// frames: the voxel belongs to the solid on the +z side, for upright faces on the +x side, then +y. Boxes that touch
+/// do not overlap.
+inline constexpr double kSampleNudge[3] = {0x1p-13, 0x1p-14, 0x1p-12};
 
 /// Voxels beyond the grid are counted in a window of the same lattice that goes on for this many grid sizes on every
 /// side (3 x 3 x 3 grids in all). What lies further out counts nothing, so a huge part costs no more than the window.
