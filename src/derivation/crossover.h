@@ -33,13 +33,13 @@ struct CrossoverResult {
 ///
 /// A subtree that comes to another depth has its guards evaluated again: empty or open slots whose guard fails there
 /// become absent, absent ones whose guard holds there become empty. Not compatible is a swap after which a guard fails
-/// for a gene, a required slot is left empty, a variant or filled slot has probability 0, a limit is broken, or anything
-/// that locks of a parent hold has gone from its child. Of the places that look alike but are not compatible, at most 64
-/// are passed over in one attempt.
+/// for a gene, a required slot is left empty, a variant or filled slot has probability 0, a limit is broken, or
+/// anything that locks of a parent hold has gone from its child. Of the places that look alike but are not compatible,
+/// at most 64 are passed over in one attempt.
 ///
-/// Genes are conserved: together the children hold exactly the parents' genes (a moved gene may take another edge to the
-/// same rule). Each child descends from its parent, with its start gene and detail seed. The children must not be the
-/// parents or each other; their storage is reused, nothing is allocated once warm.
+/// Genes are conserved: together the children hold exactly the parents' genes (a moved gene may take another edge to
+/// the same rule). Each child descends from its parent, with its start gene and detail seed. The children must not be
+/// the parents or each other; their storage is reused, nothing is allocated once warm.
 CrossoverResult crossover(const GeneratorGraph& graph, const Derivation& parent1, const Derivation& parent2,
                           const Locks& locks1, const Locks& locks2, const CrossoverSettings& settings,
                           RandomStream& random, Derivation& child1, Derivation& child2);

@@ -7,7 +7,8 @@
 //   draws   one 32-bit quantile per draw component, in the same order
 //
 // A quantile q stands for u = q * 2^-32 in [0, 1); its distribution maps u to a value during expansion, so a gene stays
-// valid wherever it is put. A derivation is a value: it knows nothing of its graph, which every function takes beside it.
+// valid wherever it is put. A derivation is a value: it knows nothing of its graph, which every function takes beside
+// it.
 
 #include <cstdint>
 #include <vector>

@@ -24,12 +24,13 @@ std::string encode(const GeneratorGraph& graph, const Derivation& derivation);
 
 /// Reads what `encode` wrote. Throws Error (place, rule, value) for anything that is not a derivation of this graph:
 /// malformed JSON, unknown version, member, rule or edge, wrong counts, broken guards or limits, more than `most_genes`
-/// genes. Another grammar's name or hash is an error too unless `allow_other_grammar`: then the derivation need only fit.
+/// genes. Another grammar's name or hash is an error too unless `allow_other_grammar`: then the derivation need only
+/// fit.
 Derivation decode(const GeneratorGraph& graph, std::string_view json, std::uint32_t most_genes = 4'000'000,
                   bool allow_other_grammar = false);
 
-/// Empty if `derivation` is a valid derivation of `graph`, otherwise what is wrong with it and where. Trusts nothing and
-/// checks everything: counts, edges against slots, variants, guards, limits. Linear time.
+/// Empty if `derivation` is a valid derivation of `graph`, otherwise what is wrong with it and where. Trusts nothing
+/// and checks everything: counts, edges against slots, variants, guards, limits. Linear time.
 std::string find_fault(const GeneratorGraph& graph, const Derivation& derivation);
 
 }  // namespace espalier

@@ -46,8 +46,9 @@ std::string FaultFinder::close_top(std::uint32_t next_gene) {
   };
   const std::size_t genes = next_gene - top.gene - 1;
   if (record.genes_below != genes) return wrong("genes_below", record.genes_below, genes);
-  if (record.slots_below != slots_ - top.slots_end) return wrong("slots_below", record.slots_below, slots_ - top.slots_end);
-  if (record.draws_below != draws_ - top.draws_end) return wrong("draws_below", record.draws_below, draws_ - top.draws_end);
+  const std::size_t slots = slots_ - top.slots_end, draws = draws_ - top.draws_end;
+  if (record.slots_below != slots) return wrong("slots_below", record.slots_below, slots);
+  if (record.draws_below != draws) return wrong("draws_below", record.draws_below, draws);
   below_.leave(*top.rule);
   stack_.pop_back();
   if (!stack_.empty()) above_.leave(*stack_.back().rule);

@@ -87,7 +87,9 @@ void GeneReader::take_slots(std::string_view letters) {
   }
   for (const char letter : letters) {
     const std::size_t state = kSlotLetters.find(letter);
-    if (state == std::string_view::npos) fail(fmt::format("slot states are F, E, O or A, not those of \"{}\"", letters));
+    if (state == std::string_view::npos) {
+      fail(fmt::format("slot states are F, E, O or A, not those of \"{}\"", letters));
+    }
     derivation_.slots.push_back(static_cast<SlotState>(state));
   }
   top.slot = top.slots;
@@ -102,7 +104,9 @@ void GeneReader::begin_draws() {
 }
 
 void GeneReader::take_draw(std::uint64_t quantile) {
-  if (quantile > std::numeric_limits<std::uint32_t>::max()) fail(fmt::format("quantile {} is not below 2^32", quantile));
+  if (quantile > std::numeric_limits<std::uint32_t>::max()) {
+    fail(fmt::format("quantile {} is not below 2^32", quantile));
+  }
   derivation_.draws.push_back(static_cast<std::uint32_t>(quantile));
 }
 

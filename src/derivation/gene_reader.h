@@ -1,6 +1,6 @@
 #pragma once
-// GeneReader: builds a derivation from the entries of an encoded one, and knows from the slots read so far which edge each
-// gene must have. Everything that is wrong throws Error naming gene, rule and value.
+// GeneReader: builds a derivation from the entries of an encoded one, and knows from the slots read so far which edge
+// each gene must have. Everything that is wrong throws Error naming gene, rule and value.
 
 #include <cstdint>
 #include <string>

@@ -28,9 +28,9 @@ class Growth {
  public:
   static constexpr std::uint32_t kMostGenes = 100'000;
 
-  /// Grows a gene in a slot of `edge`, with its required descendants, depth-first; optional slots are empty. Appends the
-  /// subtree to `out` and counts it into `ledger`; both are left half done if there is a fault. The guard of the gene
-  /// itself must hold. `above` counts the genes above it.
+  /// Grows a gene in a slot of `edge`, with its required descendants, depth-first; optional slots are empty. Appends
+  /// the subtree to `out` and counts it into `ledger`; both are left half done if there is a fault. The guard of the
+  /// gene itself must hold. `above` counts the genes above it.
   GrowthFault append(const GeneratorGraph& graph, EdgeId edge, const DepthCounts& above, RandomStream& random,
                      LimitLedger& ledger, Derivation& out, std::uint32_t most_genes = kMostGenes);
 

@@ -21,7 +21,8 @@ std::vector<std::uint16_t> parse_gene_path(const GeneratorGraph& graph, const st
     if (!rule) {
       rule = &graph.rules[graph.start()];
       if (step == rule->name) continue;
-      throw Error(fmt::format("gene path \"{}\": starts with \"{}\", but the start rule is {}", text, step, rule->name));
+      throw Error(
+          fmt::format("gene path \"{}\": starts with \"{}\", but the start rule is {}", text, step, rule->name));
     }
     const auto found = std::find_if(rule->slots.begin(), rule->slots.end(),
                                     [&](const Slot& slot) { return slot.name == step; });

@@ -1,6 +1,6 @@
 #pragma once
-// log x in double precision from + - * / alone, so that priors have the same bits on every CPU (glibc's double functions
-// take other code paths where the CPU has fused multiply-add).
+// log x in double precision from + - * / alone, so that priors have the same bits on every CPU (glibc's double
+// functions take other code paths where the CPU has fused multiply-add).
 
 #include <bit>
 #include <cstdint>

@@ -157,7 +157,7 @@ bool grow_open_slot(const GeneratorGraph& graph, Derivation& derivation, RandomS
   ledger.reset(graph, derivation);
   std::vector<OpenSlot> open;
   bool decided = false, made = false;
-  constexpr std::size_t kMostNew = 10'000;  // grammars need not emit at all
+  constexpr std::size_t kMostNew = 1000;  // grammars need not emit at all
   const std::size_t most_genes = derivation.size() + kMostNew;
   while (!made && derivation.size() < most_genes) {
     find_open_slots(graph, derivation, ledger, open);

@@ -8,8 +8,8 @@
 
 namespace espalier {
 
-/// Index of a candidate, with probability proportional to candidates[i].weight > 0; `total` is the sum of the weights in
-/// their order. At least one candidate.
+/// Index of a candidate, with probability proportional to candidates[i].weight > 0; `total` is the sum of the weights
+/// in their order. At least one candidate.
 template <class Candidate>
 std::size_t pick_weighted(const std::vector<Candidate>& candidates, double total, RandomStream& random) {
   double rest = random.next_unit() * total;

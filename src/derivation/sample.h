@@ -24,10 +24,10 @@ struct SampleResult {
 /// again, at most 1000 times, then Error naming the rule; Error too where all weights of a choice are 0.
 SampleResult sample(const GeneratorGraph& graph, RandomStream& random, std::uint32_t most_genes = 10'000);
 
-/// One step of growth in random order: decides open slots, picked uniformly, by the prior until a gene has been made that
-/// emits or has a bone, or none is open, or 10 000 genes were made (SOSMC's order; language.md 13). New genes have open
-/// slots. A slot whose rule has reached its limit is decided empty if optional, and left open if required. False if
-/// nothing could be decided.
+/// One step of growth in random order: decides open slots, picked uniformly, by the prior until a gene has been made
+/// that emits or has a bone, or none is open, or 1000 genes were made (SOSMC's order; language.md 13). New genes have
+/// open slots. A slot whose rule has reached its limit is decided empty if optional, and left open if required. False
+/// if nothing could be decided.
 bool grow_open_slot(const GeneratorGraph& graph, Derivation& derivation, RandomStream& random);
 
 /// Closes every open slot: optional ones become empty, required ones are grown (their optional slots empty). False, and

@@ -1,6 +1,6 @@
 #pragma once
-// GeneSweep: visits the genes of a derivation, or of one subtree, in their order (parents first), and knows of each where
-// it stands. Linear time in genes and slots. Keep one and reuse it: its storage stays.
+// GeneSweep: visits the genes of a derivation, or of one subtree, in their order (parents first), and knows of each
+// where it stands. Linear time in genes and slots. Keep one and reuse it: its storage stays.
 
 #include <cstdint>
 #include <vector>

@@ -1,75 +1,16 @@
 #include "derivation/crossover.h"
 
-#include <map>
-#include <tuple>
-
 #include <gtest/gtest.h>
 
 #include "chi_square.h"
-#include "derivation/encode.h"
-#include "enumerate.h"
-#include "random_derivation.h"
+#include "crossover_outcomes.h"
 
 namespace espalier {
 namespace {
 
 using namespace test;
 
-constexpr SlotState E = SlotState::empty, F = SlotState::filled, A = SlotState::absent;
-
-using Gene = std::tuple<RuleId, std::uint16_t, std::vector<std::uint32_t>>;
-
-void count_genes(const GeneratorGraph& graph, const Derivation& d, int by, std::map<Gene, int>& counts) {
-  auto draw = d.draws.begin();
-  for (const GeneRecord& gene : d.genes) {
-    const auto end = draw + static_cast<std::ptrdiff_t>(variant_of(graph, gene).draws.size());
-    counts[{graph.edges[gene.edge].child, gene.variant, std::vector<std::uint32_t>(draw, end)}] += by;
-    draw = end;
-  }
-}
-
-void expect_conserved(const GeneratorGraph& graph, const Derivation& parent1, const Derivation& parent2,
-                      const Derivation& child1, const Derivation& child2) {
-  std::map<Gene, int> counts;
-  count_genes(graph, parent1, 1, counts), count_genes(graph, parent2, 1, counts);
-  count_genes(graph, child1, -1, counts), count_genes(graph, child2, -1, counts);
-  for (const auto& [gene, count] : counts) EXPECT_EQ(count, 0) << "of rule " << std::get<0>(gene);
-}
-
-void check_random_crossovers(Compatibility compatibility, std::uint64_t first_seed) {
-  int crossed = 0, locked_crossed = 0, refused = 0;
-  Derivation child1, child2;
-  for (std::uint64_t seed = first_seed; seed < first_seed + 700; ++seed) {
-    RandomStream random = stream(seed);
-    const GeneratorGraph graph = seed % 4 ? random_graph(random) : guarded_tree(5);
-    const std::optional<Derivation> p1 = random_derivation(graph, random), p2 = random_derivation(graph, random);
-    if (!p1 || !p2) continue;
-    for (int step = 0; step < 6; ++step) {
-      CrossoverSettings settings{compatibility, 1 + static_cast<int>(random.below(4)), random.next_unit()};
-      const Locks locks1 = random_locks(graph, *p1, random), locks2 = random_locks(graph, *p2, random);
-      const CrossoverResult result =
-          crossover(graph, *p1, *p2, locks1, locks2, settings, random, child1, child2);
-      ASSERT_EQ(find_fault(graph, child1), "") << "seed " << seed;
-      ASSERT_EQ(find_fault(graph, child2), "") << "seed " << seed;
-      expect_conserved(graph, *p1, *p2, child1, child2);
-      expect_locks_kept(graph, *p1, child1, locks1);
-      expect_locks_kept(graph, *p2, child2, locks2);
-      EXPECT_EQ(child1.detail_seed, p1->detail_seed);
-      EXPECT_EQ(child2.detail_seed, p2->detail_seed);
-      EXPECT_LE(result.tries, settings.retries);
-      EXPECT_TRUE(result.crossed || (child1 == *p1 && child2 == *p2));
-      if (testing::Test::HasFailure()) FAIL() << "seed " << seed << " step " << step;
-      (result.crossed ? crossed : refused) += 1;
-      locked_crossed += result.crossed && !(locks1.empty() && locks2.empty());
-    }
-  }
-  EXPECT_GT(crossed, 1000);
-  EXPECT_GT(locked_crossed, 500);
-  EXPECT_GT(refused, 100);
-}
-
-TEST(Crossover, ByEdgeStaysValidConservesGenesAndKeepsLocks) { check_random_crossovers(Compatibility::edge, 1000); }
-TEST(Crossover, BySymbolStaysValidConservesGenesAndKeepsLocks) { check_random_crossovers(Compatibility::symbol, 3000); }
+constexpr SlotState E = SlotState::empty, F = SlotState::filled;
 
 /// A derivation of `graph` from edges, slots and one draw per gene; counts are filled in for a start gene with leaves.
 Derivation star(const std::vector<EdgeId>& edges, std::vector<SlotState> slots, const std::vector<std::uint32_t>& draws,
@@ -91,26 +32,6 @@ GeneratorGraph leaves(bool last_required) {
   b.maybe(root, y, 0.5);
   last_required ? b.spawn(root, x) : b.maybe(root, x, 0.5);
   return b.build();
-}
-
-/// Swaps many times and counts the draws of both children.
-std::map<std::string, int> outcomes(const GeneratorGraph& graph, const Derivation& p1, const Derivation& p2,
-                                    const CrossoverSettings& settings, int n, const Locks& locks1 = {},
-                                    const Locks& locks2 = {}) {
-  std::map<std::string, int> counts;
-  RandomStream random = stream(77);
-  Derivation c1, c2;
-  EXPECT_EQ(find_fault(graph, p1) + find_fault(graph, p2), "");
-  for (int i = 0; i < n; ++i) {
-    const bool crossed = crossover(graph, p1, p2, locks1, locks2, settings, random, c1, c2).crossed;
-    EXPECT_EQ(find_fault(graph, c1) + find_fault(graph, c2), "");
-    std::string key = crossed ? "" : "none ";
-    for (const std::uint32_t u : c1.draws) key += std::to_string(u);
-    key += "|";
-    for (const std::uint32_t u : c2.draws) key += std::to_string(u);
-    ++counts[key];
-  }
-  return counts;
 }
 
 TEST(Crossover, PicksGenesAndMatchesUniformly) {
@@ -222,61 +143,6 @@ TEST(Crossover, KeepsLimits) {
   // X1: with X6 (X5 would bring a second Y to parent 2); Y2: with Y7; X3: with X5
   expect_distribution({{"673|512", 1 / 3.0}, {"173|562", 1 / 3.0}, {"125|367", 1 / 3.0}},
                       outcomes(graph, p1, p2, {Compatibility::edge, 1, 1}, 9000));
-}
-
-/// A chain of links that end at depth 4: Root - Link - Link - ... ; the last slot is absent at the end.
-GeneratorGraph chain(bool required) {
-  GraphBuilder b("chain");
-  const RuleId root = b.rule("Root"), link = b.rule("Link", 1);
-  b.maybe(root, link, 0.5);
-  required ? b.spawn(link, link) : b.maybe(link, link, 0.5);
-  b.guard(link, depth_below(4));
-  return b.build();
-}
-
-Derivation links(std::vector<std::uint32_t> draws, SlotState last) {
-  const std::uint32_t n = static_cast<std::uint32_t>(draws.size());
-  Derivation d;
-  d.genes.push_back({0, 0, n, n, n});
-  for (std::uint32_t i = 1; i <= n; ++i) d.genes.push_back({static_cast<EdgeId>(i == 1 ? 1 : 2), 0, n - i, n - i, n - i});
-  d.slots.assign(n, F);
-  d.slots.push_back(last);
-  d.draws = std::move(draws);
-  return d;
-}
-
-TEST(Crossover, MovedSubtreesMeetTheGuardsOfTheirNewDepth) {
-  const GeneratorGraph graph = chain(false);
-  const Derivation full = links({1, 2, 3}, A), two = links({5, 6}, E);
-  ASSERT_EQ(find_fault(graph, full) + find_fault(graph, two), "");
-  // By edge 2: 2 or 3 of the full chain with 6 of the other. 3 comes up: its slot is empty. 6 goes down: absent.
-  RandomStream random = stream(8);
-  std::map<std::string, int> counts;
-  Derivation c1, c2;
-  for (int i = 0; i < 9000; ++i) {
-    ASSERT_TRUE(crossover(graph, full, two, {}, {}, {}, random, c1, c2).crossed);
-    ASSERT_EQ(find_fault(graph, c1) + find_fault(graph, c2), "");
-    ++counts[key_of(graph, c1) + "/ " + key_of(graph, c2)];
-  }
-  expect_distribution({{"0.0F 1.0F 2.0E / 0.0F 1.0F 2.0F 2.0A ", 2 / 3.0},   // 1 with 5, 2 with 6
-                       {"0.0F 1.0F 2.0F 2.0A / 0.0F 1.0F 2.0E ", 1 / 3.0}},  // 3 with 6
-                      counts);
-}
-
-TEST(Crossover, DeeperThanTheGuardIsNotCompatible) {
-  const GeneratorGraph graph = chain(false);
-  const Derivation full = links({1, 2, 3}, A);
-  // Among its like, only equal depths fit: 2 with 2 or 3 with 3, and 1 with 1.
-  const std::map<std::string, int> counts = outcomes(graph, full, links({5, 6, 7}, A), {}, 9000);
-  expect_distribution({{"567|123", 1 / 3.0}, {"167|523", 1 / 3.0}, {"127|563", 1 / 3.0}}, counts);
-}
-
-TEST(Crossover, RequiredSlotsMayNotTurnEmptyWhenTheyRise) {
-  const GeneratorGraph graph = chain(true);
-  const Derivation full = links({1, 2, 3}, A), same = links({5, 6, 7}, A);
-  ASSERT_EQ(find_fault(graph, full), "");
-  expect_distribution({{"567|123", 1 / 3.0}, {"167|523", 1 / 3.0}, {"127|563", 1 / 3.0}},
-                      outcomes(graph, full, same, {}, 3000));
 }
 
 TEST(Crossover, WithNothingToGiveReturnsTheParents) {

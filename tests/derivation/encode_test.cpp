@@ -130,10 +130,12 @@ TEST(Decode, NamesWhatIsWrongInAGene) {
   EXPECT_EQ(error_after("\"2\"", "-1"), "derivation: gene 1 (Twig): -1 is not expected here");
   EXPECT_EQ(error_after("\"2\"", "null"), "derivation: gene 1 (Twig): null is not expected here");
   EXPECT_EQ(error_after("\"A\"", "\"AA\""), "derivation: gene 2 (Twig): has 1 slots, but \"AA\" gives 2");
-  EXPECT_EQ(error_after("\"A\"", "\"x\""), "derivation: gene 2 (Twig): slot states are F, E, O or A, not those of \"x\"");
+  EXPECT_EQ(error_after("\"A\"", "\"x\""),
+            "derivation: gene 2 (Twig): slot states are F, E, O or A, not those of \"x\"");
   EXPECT_EQ(error_after("[0, 7]", "[0]"), "derivation: gene 2 (Twig): has 2 draws, but 1 are given");
   EXPECT_EQ(error_after("[0, 7]", "[0, 7, 8]"), "derivation: gene 2 (Twig): has 2 draws, but 3 are given");
-  EXPECT_EQ(error_after("[0, 7]", "[0, 4294967296]"), "derivation: gene 2 (Twig): quantile 4294967296 is not below 2^32");
+  EXPECT_EQ(error_after("[0, 7]", "[0, 4294967296]"),
+            "derivation: gene 2 (Twig): quantile 4294967296 is not below 2^32");
   EXPECT_EQ(error_after("[0, 7]", "[0, 0.5]"), "derivation: gene 2 (Twig): 0.5 is not expected here");
   EXPECT_EQ(error_after("[0, 7]", "[0, NaN]").substr(0, 47), "derivation: gene 2 (Twig): not JSON at byte 241");
   EXPECT_EQ(error_after(", [0, 7]", ""),

@@ -67,7 +67,8 @@ class Enumeration {
       if (rule.counted) ++of_rule_[*rule.counted];
       const Rule& child = graph_.rules[way.child];
       const bool stands = !child.guarded || child.guard.at(counts()) != 0;
-      const std::vector<Enumerated> children = stands && p > 0 ? genes_of(rule.slots[s].edge) : std::vector<Enumerated>();
+      std::vector<Enumerated> children;
+      if (stands && p > 0) children = genes_of(rule.slots[s].edge);
       --depth_;
       if (rule.counted) --of_rule_[*rule.counted];
       std::vector<Partial> next;

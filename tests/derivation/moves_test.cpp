@@ -3,15 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "chi_square.h"
-#include "derivation/encode.h"
-#include "random_derivation.h"
+#include "move_outcomes.h"
 
 namespace espalier {
 namespace {
 
 using namespace test;
-
-using Move = bool (*)(const GeneratorGraph&, Derivation&, const Locks&, RandomStream&);
 
 /// Applies moves at random to derivations of random graphs under random locks.
 void check_move(Move move, std::uint64_t first_seed) {
@@ -56,53 +53,6 @@ TEST(Moves, MixedForLongStayValid) {
     }
   }
 }
-
-/// The states of all slots as letters.
-std::string states(const Derivation& d) {
-  std::string text;
-  for (const SlotState state : d.slots) text += "OEFA"[static_cast<int>(state)];
-  return text;
-}
-
-struct Fixture {
-  GeneratorGraph graph;
-  Derivation start;
-};
-
-/// Root with slots A (p 0.5), B (p 0.2) twice, C (required); all leaves.
-Fixture flat(std::vector<SlotState> slots) {
-  GraphBuilder b("flat");
-  const RuleId root = b.rule("Root"), leaf_a = b.rule("A", 1), leaf_b = b.rule("B"), leaf_c = b.rule("C");
-  b.maybe(root, leaf_a, 0.5);
-  b.maybe(root, leaf_b, 0.2, 2);
-  b.spawn(root, leaf_c);
-  Fixture f{b.build(), {}};
-  f.start.genes.push_back({0, 0, 0, 0, 0});
-  f.start.slots = slots;
-  const EdgeId edges[] = {1, 2, 2, 3};
-  for (std::size_t k = 0; k < slots.size(); ++k) {
-    if (slots[k] != SlotState::filled) continue;
-    f.start.genes.push_back({edges[k], 0, 0, 0, 0});
-    if (k == 0) f.start.draws.push_back(7);
-    ++f.start.genes[0].genes_below;
-  }
-  f.start.genes[0].draws_below = static_cast<std::uint32_t>(f.start.draws.size());
-  EXPECT_EQ(find_fault(f.graph, f.start), "");
-  return f;
-}
-
-std::map<std::string, int> outcomes(const Fixture& f, Move move, const Locks& locks, int n, std::uint64_t seed) {
-  std::map<std::string, int> counts;
-  RandomStream random = stream(seed);
-  for (int i = 0; i < n; ++i) {
-    Derivation d = f.start;
-    EXPECT_TRUE(move(f.graph, d, locks, random));
-    ++counts[states(d)];
-  }
-  return counts;
-}
-
-constexpr SlotState E = SlotState::empty, F = SlotState::filled, A = SlotState::absent;
 
 TEST(Grow, PicksEmptySlotsInProportionToP) {
   const Fixture f = flat({E, E, E, F});
@@ -204,94 +154,6 @@ TEST(Grow, EndsRequiredRecursionAtItsGuard) {
   RandomStream random = stream(12);
   ASSERT_TRUE(grow(f.graph, f.start, {}, random));
   EXPECT_EQ(states(f.start), "FFFA");
-}
-
-/// One gene with three variants over slots {X required, Y optional, Z optional, X again}: lists share and lack some.
-Fixture choice() {
-  GraphBuilder b("choice");
-  const RuleId root = b.rule("Root", 2), x = b.rule("X"), y = b.rule("Y", 1), z = b.rule("Z");
-  b.spawn(root, x);
-  b.maybe(root, y, 0.5);
-  b.maybe(root, z, 0.5);
-  b.variant(root, 0.5, {0}, {0, 1});
-  b.variant(root, 0.3, {0, 1}, {1, 2});
-  b.variant(root, 0.2, {}, {0, 2});
-  Fixture f{b.build(), {}};
-  // variant 2: Y filled (draw 5), Z filled
-  f.start = {{{0, 1, 2, 0, 1}, {2, 0, 0, 0, 0}, {3, 0, 0, 0, 0}}, {F, F}, {1, 2, 5}, 9};
-  EXPECT_EQ(find_fault(f.graph, f.start), "");
-  return f;
-}
-
-TEST(Alter, KeepsCommonSlotsCutsLostOnesAndGrowsRequiredOnes) {
-  const Fixture f = choice();
-  RandomStream random = stream(13);
-  std::map<std::string, int> counts;
-  for (int i = 0; i < 30000; ++i) {
-    Derivation d = f.start;
-    ASSERT_TRUE(alter(f.graph, d, {}, random));
-    ASSERT_EQ(find_fault(f.graph, d), "");
-    const std::string key = std::to_string(d.genes[0].variant) + states(d);
-    const bool y_altered = d.draws.back() != 5;
-    if (d.genes[0].variant == 0) {
-      EXPECT_EQ(d.draws.back(), 5u);  // Y came along
-      EXPECT_EQ(d.genes[2].edge, 2);
-    }
-    ++counts[key + (d.genes[0].variant == 1 && y_altered ? "y" : "")];
-  }
-  // Root and Y have something to alter: 1/2 each
-  expect_distribution({{"1FFy", 0.5}, {"0FF", 0.25}, {"1FF", 0.15}, {"2FF", 0.1}}, counts);
-}
-
-TEST(Alter, GainedOptionalSlotsAreEmpty) {
-  Fixture f = choice();
-  f.start = {{{0, 0, 1, 0, 0}, {1, 0, 0, 0, 0}}, {F, E}, {1}, 9};  // variant 1: X, no Y
-  ASSERT_EQ(find_fault(f.graph, f.start), "");
-  expect_distribution({{"FE", 0.7}, {"EE", 0.3}}, outcomes(f, alter, {}, 10000, 14));
-}
-
-TEST(Alter, VariantsThatLoseALockedChildAreNotPicked) {
-  const Fixture f = choice();
-  RandomStream random = stream(15);
-  const Locks locks = {{{1}, LockScope::draws}};  // Y: in variants 1 and 2
-  std::vector<int> counts(3);
-  for (int i = 0; i < 20000; ++i) {
-    Derivation d = f.start;
-    ASSERT_TRUE(alter(f.graph, d, locks, random));
-    ++counts[d.genes[0].variant];
-    ASSERT_EQ(d.draws.back(), 5u);
-  }
-  expect_distribution({0.5 / 0.8, 0.3 / 0.8, 0}, counts);
-}
-
-TEST(Alter, DrawsAreFreshAndUniform) {
-  const Fixture f = flat({F, E, E, F});
-  RandomStream random = stream(16);
-  std::vector<int> bins(8);
-  for (int i = 0; i < 8000; ++i) {
-    Derivation d = f.start;
-    ASSERT_TRUE(alter(f.graph, d, {}, random));  // only A has a draw
-    ++bins[d.draws[0] >> 29];
-  }
-  expect_distribution(std::vector<double>(8, 0.125), bins);
-}
-
-TEST(Alter, FindsNothingToAlter) {
-  Fixture f = flat({E, F, E, F});
-  RandomStream random = stream(17);
-  EXPECT_FALSE(alter(f.graph, f.start, {}, random));
-  Fixture g = flat({F, E, E, F});
-  EXPECT_FALSE(alter(g.graph, g.start, {{{0}, LockScope::draws}}, random));
-  EXPECT_TRUE(alter(g.graph, g.start, {{{}, LockScope::structure}}, random));
-}
-
-TEST(Alter, LocksOfStructureKeepTheVariant) {
-  Fixture f = choice();
-  RandomStream random = stream(18);
-  for (int i = 0; i < 200; ++i) {
-    ASSERT_TRUE(alter(f.graph, f.start, {{{}, LockScope::structure}}, random));
-    EXPECT_EQ(f.start.genes[0].variant, 1);
-  }
 }
 
 TEST(Moves, AbsentSlotsStayAbsent) {

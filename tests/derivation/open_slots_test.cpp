@@ -76,7 +76,9 @@ TEST(GrowOpenSlot, PicksOpenSlotsUniformly) {
   b.spawn(root, leaf);
   b.maybe(root, leaf, 0.999, 3);
   GeneratorGraph graph = b.build();
-  graph.rules[leaf].variants[0].program.ops.push_back({OpCode::bone, 0, Arithmetic::add, 0, 0, 0, 0, {}, {}, {}});
+  Op bone;
+  bone.code = OpCode::bone;
+  graph.rules[leaf].variants[0].program.ops.push_back(bone);
   std::vector<int> counts(4);
   RandomStream random = stream(3);
   for (int i = 0; i < 8000; ++i) {
@@ -95,7 +97,9 @@ TEST(GrowOpenSlot, StaysValidOnRandomGraphs) {
     GeneratorGraph graph = random_graph(random);
     for (Rule& rule : graph.rules) {
       if (random.chance(0.5)) continue;
-      for (Variant& variant : rule.variants) variant.program.ops.push_back({OpCode::emit, 0, {}, 0, 0, 0, 0, {}, {}, {}});
+      Op emit;
+      emit.code = OpCode::emit;
+      for (Variant& variant : rule.variants) variant.program.ops.push_back(emit);
     }
     std::optional<Derivation> d = random_derivation(graph, random, 5);
     for (int k = 0; d && k < 20 && d->size() < 500; ++k) {

@@ -11,7 +11,7 @@
 #include "derivation/moves.h"
 #include "derivation/position.h"
 #include "derivation/sample.h"
-#include "test_graph.h"
+#include "random_graph.h"
 
 namespace espalier::test {
 

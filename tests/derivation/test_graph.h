@@ -1,11 +1,10 @@
 #pragma once
-// Generator graphs made by hand and at random, for tests of everything that works on derivations. Programs are empty.
+// Generator graphs made by hand, for tests of everything that works on derivations. Programs are empty.
 
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "base/random.h"
 #include "grammar/graph.h"
 
 namespace espalier::test {
@@ -125,7 +124,8 @@ class GraphBuilder {
 /// The spaceship of language.md 4: a hull of bodies, wings at their sides, towers on top.
 inline GeneratorGraph spaceship() {
   GraphBuilder b("spaceship");
-  const RuleId ship = b.rule("Ship"), body = b.rule("Body", 3), wing = b.rule("Wing", 4), wing_part = b.rule("WingPart", 4);
+  const RuleId ship = b.rule("Ship"), body = b.rule("Body", 3);
+  const RuleId wing = b.rule("Wing", 4), wing_part = b.rule("WingPart", 4);
   const RuleId top = b.rule("Top", 3), top_part = b.rule("TopPart", 3);
   b.spawn(ship, body);
   b.maybe(body, body, 1.0 / 3);
@@ -147,61 +147,6 @@ inline GeneratorGraph guarded_tree(double most_depth = 8) {
   for (const RuleId rule : {trunk, branch, leader}) {
     b.maybe(rule, branch, 0.4, 2);
     b.maybe(rule, leader, 0.5);
-  }
-  return b.build();
-}
-
-/// A graph in which anything may happen: guards by depth and by depth of a rule, limits, choices whose variants share and
-/// lack draws and slots, weights and probabilities by depth, required recursion that a guard ends. The start rule is
-/// never spawned; what is required always ends.
-inline GeneratorGraph random_graph(RandomStream& random) {
-  GraphBuilder b("random");
-  const std::uint32_t rules = 2 + random.below(5);
-  for (std::uint32_t r = 0; r < rules; ++r) b.rule("R" + std::to_string(r), static_cast<int>(random.below(4)));
-  std::vector<bool> guarded(rules);
-  std::vector<std::uint16_t> slots(rules);
-  for (std::uint32_t r = 1; r < rules; ++r) {
-    const RuleId rule = static_cast<RuleId>(r);
-    guarded[r] = random.chance(0.5);
-    if (guarded[r]) {
-      const double most = 2 + random.below(5);
-      b.guard(rule, random.chance(0.7) ? depth_below(most) : count_below(b.count(rule), most));
-    }
-    if (random.chance(0.2)) b.limit(rule, 1 + random.below(6));
-  }
-  for (std::uint32_t r = 0; r < rules; ++r) {
-    const std::uint32_t edges = random.below(4) + (r == 0 ? 1 : 0);
-    for (std::uint32_t e = 0; e < edges; ++e) {
-      const std::uint32_t child = 1 + random.below(rules - 1);
-      const int copies = 1 + static_cast<int>(random.below(2));
-      const double p = 0.1 + 0.7 * random.next_unit();
-      const bool ends = guarded[child] ? copies == 1 : child > r;
-      if (ends && random.chance(0.3)) {
-        b.spawn(static_cast<RuleId>(r), static_cast<RuleId>(child), copies);
-      } else if (random.chance(0.2)) {
-        b.maybe(static_cast<RuleId>(r), static_cast<RuleId>(child), by_depth(3, p, 0.5 * p), copies);
-      } else {
-        b.maybe(static_cast<RuleId>(r), static_cast<RuleId>(child), p, copies);
-      }
-      slots[r] = static_cast<std::uint16_t>(slots[r] + copies);
-    }
-  }
-  GeneratorGraph plain = b.build();
-  for (std::uint32_t r = 0; r < rules; ++r) {
-    if (random.chance(0.6)) continue;
-    const std::uint32_t variants = 2 + random.below(3);
-    for (std::uint32_t v = 0; v < variants; ++v) {
-      std::vector<std::uint16_t> draws, own;
-      for (std::uint16_t d = 0; d < plain.rules[r].draws.size(); ++d) {
-        if (random.chance(0.6)) draws.push_back(d);
-      }
-      for (std::uint16_t s = 0; s < slots[r]; ++s) {
-        if (random.chance(0.7)) own.push_back(s);
-      }
-      const bool by = variants == 2 && random.chance(0.3);  // at depth >= 4 only the second is left
-      const DepthValue probability = by ? by_depth(4, 0.5, v == 0 ? 0 : 1) : DepthValue(1.0 / variants);
-      b.variant(static_cast<RuleId>(r), probability, draws, own);
-    }
   }
   return b.build();
 }
