@@ -83,11 +83,13 @@ void ConvexShape::set_extent(const Solid& solid, const Placement& placement, dou
       centre[i] += 0.5 * (high + low);
       extent[i] = 0.5 * (high - low);
     } else {
+      // A prism that widens upwards reaches `top` times as far from its axis, which need not be the box's middle.
       const double wide = kind == SolidKind::prism ? std::max(1.0, top) : 1.0;
       extent[i] = 0;
       for (int j = 0; j < 3; ++j) {
-        centre[i] += m[j] * solid.centre[j];
-        extent[i] += std::abs(m[j]) * solid.half[j] * (j == 1 ? 1.0 : wide);
+        const double scale = j == 1 ? 1.0 : wide;
+        centre[i] += m[j] * solid.centre[j] * scale;
+        extent[i] += std::abs(m[j]) * solid.half[j] * scale;
       }
     }
   }
