@@ -77,8 +77,6 @@ void expect_alike(const Differences& d) {
   EXPECT_EQ(d.far, 0u);
   EXPECT_LE(static_cast<double>(d.outside), 1e-6 * static_cast<double>(d.voxels));
   testing::Test::RecordProperty("different", static_cast<int>(d.different));
-  printf("%llu of %llu voxels differ, %llu covered\n", (unsigned long long)d.different, (unsigned long long)d.voxels,
-         (unsigned long long)d.covered);
 }
 
 TEST(ReferenceVolume, KernelAgreesOnAThousandRandomModels) {
