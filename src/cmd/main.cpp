@@ -1,5 +1,6 @@
 // espalier: the command line. Declares the options of every verb, fills its struct, calls it.
 #include <csignal>
+#include <cstdio>
 #include <functional>
 
 #include <CLI/CLI.hpp>
@@ -149,12 +150,16 @@ int main(int argc, char** argv) {
   // A full disk or a closed pipe is an error to be told, not a death.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
+  std::string message;
   try {
     return espalier::main_verb(argc, argv);
   } catch (const espalier::Error& error) {
-    fmt::print(stderr, "espalier: {}\n", error.what());
+    message = error.what();
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "espalier: out of memory\n");
+    message = "out of memory";
+  } catch (const std::exception& error) {
+    message = fmt::format("unexpected: {}", error.what());
   }
+  std::fputs(fmt::format("espalier: {}\n", message).c_str(), stderr);  // fmt::print would throw where stderr is full
   return espalier::kBadInput;
 }

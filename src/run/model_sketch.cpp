@@ -4,16 +4,19 @@
 #include <bit>
 #include <cmath>
 
+#include <glm/matrix.hpp>
+
 #include "base/check.h"
 
 namespace espalier {
 namespace {
 
-// Steps across a part along one of its axes, so that neighbouring samples are at most a cell apart.
-int steps_across(const Vec3& axis, float cell) {
-  const float length = std::sqrt(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z);
-  return static_cast<int>(std::min(length / cell, 2.0f * ModelSketcher::kCells)) + 1;
-}
+// Parts longer than this many cells are looked at from the cells' side.
+constexpr float kLongest = 4.0f * ModelSketcher::kCells;
+
+float length_of(const Vec3& axis) { return std::sqrt(axis.x * axis.x + axis.y * axis.y + axis.z * axis.z); }
+
+void set(ModelSketch& sketch, std::size_t cell) { sketch.bits[cell / 64] |= std::uint64_t{1} << cell % 64; }
 
 }  // namespace
 
@@ -50,23 +53,46 @@ void ModelSketcher::draw(const Model& model, ModelSketch& sketch) const {
 }
 
 void ModelSketcher::touch(const Instance& instance, ModelSketch& sketch) const {
-  const Mat3& basis = instance.model_from_mesh.basis;
-  int n[3];
-  for (int i = 0; i < 3; ++i) n[i] = steps_across(basis[i], cell_);
-  // In cells: corner + (i + 1/2) / n along each axis of the part's box.
-  const Vec3 x = basis[0] / (cell_ * static_cast<float>(n[0])), y = basis[1] / (cell_ * static_cast<float>(n[1])),
-             z = basis[2] / (cell_ * static_cast<float>(n[2]));
-  const Vec3 corner = (instance.model_from_mesh.point(Vec3(-0.5f)) - min_) / cell_ + 0.5f * (x + y + z);
-  for (int k = 0; k < n[2]; ++k) {
-    for (int j = 0; j < n[1]; ++j) {
+  Frame cells_from_part = instance.model_from_mesh;
+  cells_from_part.origin = (cells_from_part.origin - min_) / cell_;
+  int steps[3];
+  for (int i = 0; i < 3; ++i) {
+    cells_from_part.basis[i] /= cell_;
+    const float length = length_of(cells_from_part.basis[i]);
+    if (!(length < kLongest)) return touch_by_cells(cells_from_part, sketch);
+    steps[i] = static_cast<int>(length) + 1;  // neighbouring samples are at most a cell apart
+  }
+  touch_by_samples(cells_from_part, steps, sketch);
+}
+
+void ModelSketcher::touch_by_samples(const Frame& cells_from_part, const int (&steps)[3], ModelSketch& sketch) const {
+  const Mat3& basis = cells_from_part.basis;
+  const Vec3 x = basis[0] / static_cast<float>(steps[0]), y = basis[1] / static_cast<float>(steps[1]),
+             z = basis[2] / static_cast<float>(steps[2]);
+  const Vec3 corner = cells_from_part.point(Vec3(-0.5f)) + 0.5f * (x + y + z);
+  for (int k = 0; k < steps[2]; ++k) {
+    for (int j = 0; j < steps[1]; ++j) {
       Vec3 p = corner + static_cast<float>(k) * z + static_cast<float>(j) * y;
-      for (int i = 0; i < n[0]; ++i, p += x) {
+      for (int i = 0; i < steps[0]; ++i, p += x) {
         const bool inside = p.x >= 0 && p.y >= 0 && p.z >= 0 && p.x < static_cast<float>(cells_[0]) &&
                             p.y < static_cast<float>(cells_[1]) && p.z < static_cast<float>(cells_[2]);
         if (!inside) continue;
-        const std::size_t cell = static_cast<std::size_t>(p.x) +
-                                 cells_[0] * (static_cast<std::size_t>(p.y) + cells_[1] * static_cast<std::size_t>(p.z));
-        sketch.bits[cell / 64] |= std::uint64_t{1} << cell % 64;
+        set(sketch, index(static_cast<std::size_t>(p.x), static_cast<std::size_t>(p.y), static_cast<std::size_t>(p.z)));
+      }
+    }
+  }
+}
+
+// A part far larger than the grid: the cells whose centres it covers. One that is thin besides may be missed.
+void ModelSketcher::touch_by_cells(const Frame& cells_from_part, ModelSketch& sketch) const {
+  const Mat3 part_from_cells = glm::inverse(cells_from_part.basis);
+  for (std::uint32_t z = 0; z < cells_[2]; ++z) {
+    for (std::uint32_t y = 0; y < cells_[1]; ++y) {
+      for (std::uint32_t x = 0; x < cells_[0]; ++x) {
+        const Vec3 centre = Vec3(0.5f) + Vec3(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
+        const Vec3 p = part_from_cells * (centre - cells_from_part.origin);
+        // False for a flat part, whose inverse is not finite.
+        if (std::fabs(p.x) <= 0.5f && std::fabs(p.y) <= 0.5f && std::fabs(p.z) <= 0.5f) set(sketch, index(x, y, z));
       }
     }
   }

@@ -32,6 +32,9 @@ class ModelSketcher {
 
  private:
   void touch(const Instance& instance, ModelSketch& sketch) const;
+  void touch_by_samples(const Frame& cells_from_part, const int (&steps)[3], ModelSketch& sketch) const;
+  void touch_by_cells(const Frame& cells_from_part, ModelSketch& sketch) const;
+  std::size_t index(std::size_t x, std::size_t y, std::size_t z) const { return x + cells_[0] * (y + cells_[1] * z); }
 
   bool full_;
   Vec3 min_;

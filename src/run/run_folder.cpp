@@ -49,6 +49,7 @@ RunFolder::RunFolder(const std::string& path, std::string_view marker) : path_(w
                               "(with {})", path_, marker));
     }
   }
+  error.clear();  // that there is nothing there yet was none
   const fs::path parent = fs::path(path_).parent_path();
   if (!parent.empty()) fs::create_directories(parent, error);
   if (error) throw Error(fmt::format("{}: cannot make the folder: {}", parent.string(), error.message()));

@@ -116,7 +116,7 @@ std::optional<std::string> TomlSection::text(std::string_view key) {
 std::optional<Vec3> TomlSection::vector(std::string_view key, float low, float high, bool spread) {
   const TomlValue* value = member(key);
   if (!value) return std::nullopt;
-  if (spread && value->kind != TomlValue::Kind::array) {
+  if (spread && (value->kind == TomlValue::Kind::integer || value->kind == TomlValue::Kind::real)) {
     return Vec3(static_cast<float>(number_in(*value, key, low, high)));
   }
   if (value->kind != TomlValue::Kind::array || value->items.size() != 3) {

@@ -85,6 +85,15 @@ TEST(RunFolder, TakesAnEmptyFolder) {
   EXPECT_EQ(entries(temporary.path()), 1u);
 }
 
+TEST(RunFolder, MayBeNamedRelativeToHere) {
+  const TemporaryFolder temporary;
+  const fs::path before = fs::current_path();
+  fs::current_path(temporary.path());
+  EXPECT_NO_THROW(RunFolder("out", "run.toml").commit());
+  fs::current_path(before);
+  EXPECT_TRUE(fs::is_directory(temporary / "out"));
+}
+
 TEST(RunFolder, NeverTakesWhatIsNotOurs) {
   const TemporaryFolder temporary;
   write_text(temporary / "photos/a.png", "dear");

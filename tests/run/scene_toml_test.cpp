@@ -221,7 +221,7 @@ TEST(Scene, MeshesAreCheckedToo) {
   EXPECT_THAT(error_with("scale = [1, 0, 1]"), HasSubstr("s.toml:7:9: volume.mesh.0.scale must not be 0"));
   EXPECT_THAT(error_with("scale = \"big\""), HasSubstr("volume.mesh.0.scale must be a number or [x, y, z]"));
   EXPECT_THAT(error_with("position = [1, 2, nan]"), HasSubstr("volume.mesh.0.position must be a number"));
-  EXPECT_THAT(error_with("fil = 1"), HasSubstr("did you mean volume.mesh.0.fill?"));
+  EXPECT_THAT(error_with("spil = 1"), HasSubstr("did you mean volume.mesh.0.spill?"));
 }
 
 TEST(Scene, OverridesComeLast) {
