@@ -19,6 +19,7 @@ constexpr const char* kExamples = R"(Examples:
   espalier run scenes/spaceship.toml --time 10 --out out/ship
   espalier run scenes/spaceship.toml --evaluations 20000 --set search.population=200
   espalier score out/ship/run.toml out/ship/best.derivation.json
+  espalier inspect out/ship/best.png
   espalier reproduce out/ship/best.glb
   espalier export out/ship/best.derivation.json -o ship.stl
 

@@ -230,7 +230,7 @@ TEST_F(Cmd, ScoreInspectReproduceAndExportWorkOnARun) {
   EXPECT_EQ(inspect.exit_code, 0);
   EXPECT_EQ(nlohmann::json::parse(inspect.out)["index"], 1);
   EXPECT_THAT(espalier({"inspect", "made/best.obj"}).out, AllOf(HasSubstr("seed 3, 6 steps"), HasSubstr("grammar =")));
-  EXPECT_EQ(espalier({"inspect", "scene.toml"}).exit_code, 2);
+  EXPECT_EQ(espalier({"inspect", "pile.esp"}).exit_code, 2);
 
   const ChildResult same = espalier({"reproduce", "made/best.png"});
   EXPECT_EQ(same.exit_code, 0) << same.out;
