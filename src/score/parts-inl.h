@@ -12,7 +12,7 @@
 
 #include "base/check.h"
 #include "score/draw-inl.h"
-#include "score/part_batch-inl.h"
+#include "score/round_batch-inl.h"
 #include "score/volume_kernel.h"
 
 HWY_BEFORE_NAMESPACE();

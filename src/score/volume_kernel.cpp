@@ -28,8 +28,8 @@ void draw_model(const std::vector<Solid>& solids, std::span<const Instance> inst
   draw_parts(solids, instances, view, scratch);
 }
 
-/// `used` has one bit per block of the union of the targets that is not empty; counts.inside one entry per target.
-void sweep_model(const std::vector<BitGrid>& targets, const BitGrid& all, const std::vector<std::uint64_t>& used,
+/// `used` tells of each block how the union of the targets fills it; counts.inside has one entry per target.
+void sweep_model(const std::vector<BitGrid>& targets, const BitGrid& all, const BlockMap& used,
                  VolumeScratch& scratch, VolumeCounts& counts) {
   VoxelCanvas& canvas = scratch.canvas;
   constexpr std::integral_constant<std::size_t, kBlockTiles * 8> kWords;
@@ -50,15 +50,17 @@ void sweep_model(const std::vector<BitGrid>& targets, const BitGrid& all, const 
         add_common(once, targets[i].data() + at, words, inside);
         counts.inside[i] += inside.total();
       }
-      const bool in_target = (used[d] >> bit & 1) != 0;
-      if (words == kWords) sweep_block(once, canvas.twice.data() + at, all.data() + at, in_target, kWords, sums);
-      else sweep_block(once, canvas.twice.data() + at, all.data() + at, in_target, words, sums);
+      const BlockUse use = (used.any[d] >> bit & 1) == 0   ? BlockUse::none
+                           : (used.full[d] >> bit & 1) == 0 ? BlockUse::some
+                                                            : BlockUse::all;
+      if (words == kWords) sweep_block(once, canvas.twice.data() + at, all.data() + at, use, kWords, sums);
+      else sweep_block(once, canvas.twice.data() + at, all.data() + at, use, words, sums);
     }
   }
-  counts.covered = sums.covered.total();
-  counts.overlap = sums.overlap.total();
   const std::uint64_t wanted = sums.wanted.total();
-  counts.spilled = counts.covered - wanted;
+  counts.spilled = sums.spilled.total();
+  counts.covered = wanted + counts.spilled;
+  counts.overlap = sums.overlap.total();
   if (targets.size() == 1) counts.inside[0] = wanted;
 }
 
@@ -73,22 +75,32 @@ namespace espalier {
 HWY_EXPORT(draw_model);
 HWY_EXPORT(sweep_model);
 
+namespace {
+
+/// Which blocks of a tile row have any and which have all bits set; `canvas` gives the layout.
+BlockMap map_blocks(const BitGrid& bits, const VoxelCanvas& canvas) {
+  BlockMap map{std::vector<std::uint64_t>(canvas.dirty.size()), std::vector<std::uint64_t>(canvas.dirty.size())};
+  const std::size_t rows = canvas.dirty.size() / canvas.dirty_words, row_words = std::size_t{canvas.nx()} * 8;
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t block = 0; block < canvas.blocks; ++block) {
+      const std::uint32_t* first = bits.data() + row * row_words + block * kBlockTiles * 8;
+      const std::uint32_t* last = bits.data() + row * row_words + std::min((block + 1) * kBlockTiles * 8, row_words);
+      const std::size_t at = row * canvas.dirty_words + block / 64;
+      const std::uint64_t bit = std::uint64_t{1} << block % 64;
+      if (std::any_of(first, last, [](std::uint32_t word) { return word != 0; })) map.any[at] |= bit;
+      if (std::all_of(first, last, [](std::uint32_t word) { return word == ~0u; })) map.full[at] |= bit;
+    }
+  }
+  return map;
+}
+
+}  // namespace
+
 VolumeKernel::VolumeKernel(const VoxelGrid& grid, std::vector<Solid> solids, std::vector<BitGrid> targets)
     : grid_(grid), solids_(std::move(solids)), targets_(std::move(targets)),
       union_(grid.cells[0], grid.cells[1], grid.cells[2]) {
   for (const BitGrid& target : targets_) unite(union_, target);
-  VoxelCanvas canvas{Lattice(grid)};  // for its layout of dirty bits
-  for (std::uint32_t y = 0; y < grid.cells[1]; y += 8) {
-    for (std::uint32_t z = 0; z < grid.cells[2]; z += 32) {
-      for (std::uint32_t x = 0; x < grid.cells[0]; ++x) {
-        const std::uint32_t* tile = union_.data() + union_.word_index(x, y, z);
-        const bool any = std::any_of(tile, tile + 8, [](std::uint32_t word) { return word != 0; });
-        const auto at = static_cast<std::int32_t>(x);
-        if (any) canvas.mark(static_cast<std::int32_t>(y / 8), static_cast<std::int32_t>(z / 32), at, at + 1);
-      }
-    }
-  }
-  used_ = std::move(canvas.dirty);
+  used_ = map_blocks(union_, VoxelCanvas(Lattice(grid)));
 }
 
 void VolumeKernel::draw(std::span<const Instance> instances, VolumeView view, VolumeScratch& scratch) const {

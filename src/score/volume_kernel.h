@@ -33,6 +33,11 @@ class VolumeScratch final : public TargetScratch {
   VolumeCounts counts;
 };
 
+/// For each block of tiles, laid out like VoxelCanvas::dirty: has it any bits set, all of them?
+struct BlockMap {
+  std::vector<std::uint64_t> any, full;
+};
+
 class VolumeKernel {
  public:
   /// `targets` are of the grid's size. The grid must be valid.
@@ -58,7 +63,7 @@ class VolumeKernel {
   std::vector<Solid> solids_;
   std::vector<BitGrid> targets_;
   BitGrid union_;
-  std::vector<std::uint64_t> used_;  // blocks in which union_ has bits, laid out like VoxelCanvas::dirty
+  BlockMap used_;  // of union_
 };
 
 /// For tests: the instruction sets that this machine can run the kernel with, best first, and a way to insist on one
