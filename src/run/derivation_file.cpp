@@ -87,7 +87,8 @@ void export_derivation(const ExportRequest& request, MeshSource& source, Executo
   const std::optional<Provenance> original = provenance_of(request.derivation);
   if (request.grammar.empty() && (!original || original->settings.empty())) {
     read_file(request.derivation, kMostDerivationBytes);  // a missing file is named as such
-    throw Error(fmt::format("{}: does not say which grammar it belongs to; name it with --grammar", request.derivation));
+    throw Error(
+        fmt::format("{}: does not say which grammar it belongs to; name it with --grammar", request.derivation));
   }
   const LoadedGrammar grammar = request.grammar.empty() ? grammar_of(request.derivation, *original)
                                                         : load_grammar(request.grammar, request.attributes);

@@ -10,8 +10,8 @@
 namespace espalier {
 
 /// Keeps the best of all individuals offered that are pairwise at least `least_distance` apart (see ModelSketch): a
-/// newcomer replaces those too near it that are worse, and is turned away if one too near is as good. A function of what
-/// was offered, in order.
+/// newcomer replaces those too near it that are worse, and is turned away if one too near is as good. A function of
+/// what was offered, in order.
 class DiverseArchive {
  public:
   DiverseArchive(ModelSketcher sketcher, std::size_t size, double least_distance);

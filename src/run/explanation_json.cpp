@@ -47,8 +47,8 @@ std::string explanation_text(const Explanation& e) {
     for (const Term& term : target.terms) {
       std::string count = fmt::format("{:.10g}", term.count);
       if (term.of > 0) count += fmt::format(" of {:.10g}", term.of);
-      text += fmt::format("  {:<28} {:>30} {:<7} weight {:<8g} adds {:.10g}\n", term.name, count, term.unit, term.weight,
-                          term.value + 0.0);  // no -0
+      text += fmt::format("  {:<28} {:>30} {:<7} weight {:<8g} adds {:.10g}\n", term.name, count, term.unit,
+                          term.weight, term.value + 0.0);  // no -0
     }
   }
   return text;

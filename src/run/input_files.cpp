@@ -29,11 +29,13 @@ std::string InputFiles::add(const std::string& name, std::string bytes) {
   const std::string hash = content_hash(bytes);
   std::string free_name = name;
   for (int n = 2;; ++n) {
-    const auto taken = std::find_if(files_.begin(), files_.end(), [&](const InputFile& f) { return f.name == free_name; });
+    const auto taken =
+        std::find_if(files_.begin(), files_.end(), [&](const InputFile& f) { return f.name == free_name; });
     if (taken == files_.end()) break;
     if (taken->hash == hash) return free_name;
     const fs::path path(name);
-    free_name = (path.parent_path() / fmt::format("{}-{}{}", path.stem().string(), n, path.extension().string())).string();
+    const std::string file = fmt::format("{}-{}{}", path.stem().string(), n, path.extension().string());
+    free_name = (path.parent_path() / file).string();
   }
   files_.push_back({free_name, std::move(bytes), hash});
   return free_name;
@@ -65,7 +67,8 @@ void InputFiles::add_grammar(const LoadedGrammar& grammar) {
 }
 
 std::string InputFiles::add_target(const std::string& path) {
-  return add((fs::path("inputs/targets") / fs::path(path).filename()).generic_string(), read_file(path, kMostMeshBytes));
+  const fs::path name = fs::path("inputs/targets") / fs::path(path).filename();
+  return add(name.generic_string(), read_file(path, kMostMeshBytes));
 }
 
 std::map<std::string, std::string> InputFiles::hashes() const {

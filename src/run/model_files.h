@@ -35,7 +35,8 @@ class ModelFiles {
 };
 
 /// encode() with the provenance as a member, ending with a newline.
-std::string derivation_document(const GeneratorGraph& graph, const Derivation& derivation, const Provenance& provenance);
+std::string derivation_document(const GeneratorGraph& graph, const Derivation& derivation,
+                                const Provenance& provenance);
 
 /// 64-bit hash as 16 hex digits: how provenance names a derivation.
 std::string hash_text(const Derivation& derivation);

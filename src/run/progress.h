@@ -1,6 +1,6 @@
 #pragma once
-// Progress: what a run tells while it goes on. Observers receive plain values; the sinks below turn them into a bar, plain
-// lines or JSON lines.
+// Progress: what a run tells while it goes on. Observers receive plain values; the sinks below turn them into a bar,
+// plain lines or JSON lines.
 
 #include <cstdint>
 #include <iosfwd>

@@ -66,10 +66,9 @@ std::string without_times(const std::string& text) {
     const std::size_t end = std::min(text.size(), text.find('\n', at) + 1);
     const std::string line = text.substr(at, (end == 0 ? text.size() : end) - at);
     at += line.size();
-    const auto names = {"\"wall_seconds\"", "\"evaluations_per_second\"", "\"stopped_by\""};
-    if (std::none_of(names.begin(), names.end(), [&](const char* n) { return line.starts_with(std::string(" ") + n); })) {
-      kept += line;
-    }
+    const auto members = {" \"wall_seconds\"", " \"evaluations_per_second\"", " \"stopped_by\""};
+    const auto begins = [&](const char* member) { return line.starts_with(member); };
+    if (std::none_of(members.begin(), members.end(), begins)) kept += line;
   }
   return kept;
 }
@@ -83,7 +82,8 @@ void compare_file(const Job& job, Set& set, ReproduceReport& report) {
   const std::string name = p.settings_folder == ".." ? "alternatives/" + filename : filename;
   const std::vector<std::string> names = set.names();
   // The .mtl is written with its .obj.
-  const std::string target = fs::path(filename).extension() == ".mtl" ? fs::path(filename).stem().string() + ".obj" : filename;
+  const std::string target =
+      filename.ends_with(".mtl") ? fs::path(filename).stem().string() + ".obj" : filename;
   if (p.made_by != "export" && std::find(names.begin(), names.end(), name) != names.end()) {
     set.write(name, temporary.file(target));
   } else {
@@ -144,7 +144,9 @@ ReproduceReport reproduce(const std::string& path, const std::string& run_folder
     throw Error(fmt::format("{}: holds too little provenance to be made again (an STL file has no room for it, a "
                             "derivation from elsewhere has none); try another file of its run", path));
   }
-  if (job.folder.empty()) job.folder = (fs::absolute(path).parent_path() / p.settings_folder).lexically_normal().string();
+  if (job.folder.empty()) {
+    job.folder = (fs::absolute(path).parent_path() / p.settings_folder).lexically_normal().string();
+  }
   ReproduceReport report;
   if (p.version != kVersion) {
     report.notes.push_back(fmt::format("made by version {}, this is {}", p.version, kVersion));

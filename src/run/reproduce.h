@@ -18,8 +18,8 @@ struct ReproduceReport {
   bool identical() const { return differences.empty(); }
 };
 
-/// `run_folder` empty: the folder that the provenance points at. Throws Error for a file without (enough) provenance, or
-/// whose inputs are missing.
+/// `run_folder` empty: the folder that the provenance points at. Throws Error for a file without (enough) provenance,
+/// or whose inputs are missing.
 ReproduceReport reproduce(const std::string& path, const std::string& run_folder, MeshSource& source,
                           Executor& executor);
 

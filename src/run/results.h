@@ -1,6 +1,6 @@
 #pragma once
-// Results: what a run leaves behind, file by file. Each can be written alone, so that a single one can be made again and
-// compared. All but the times in result.json and convergence.csv are the same bytes for the same setup and steps.
+// Results: what a run leaves behind, file by file. Each can be written alone, so that a single one can be made again
+// and compared. All but the times in result.json and convergence.csv are the same bytes for the same setup and steps.
 
 #include <string>
 #include <vector>
@@ -30,7 +30,7 @@ class ResultWriter {
   /// The text of run.toml.
   const std::string& settings() const { return settings_; }
 
-  /// A file about one individual, by the ending of `path` (see ModelFiles); pictures of alternatives have half the size.
+  /// A file about one individual, by the ending of `path` (see ModelFiles); pictures of alternatives are half as large.
   void write_individual(std::size_t index, const std::string& path, const Provenance& provenance);
 
  private:

@@ -17,8 +17,8 @@ struct RunOptions {
   RunObserver* observer = nullptr;          // may be null
 };
 
-/// False if it was stopped before there was any result; then nothing is left behind. Throws Error, leaving nothing behind
-/// either, unless writing failed half-way: then what could be written is kept, and the message says where.
+/// False if it was stopped before there was any result; then nothing is left behind. Throws Error, leaving nothing
+/// behind either, unless writing failed half-way: then what could be written is kept, and the message says where.
 bool run_scene(const Scene& scene, const RunOptions& options, MeshSource& source);
 
 }  // namespace espalier

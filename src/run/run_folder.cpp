@@ -45,8 +45,8 @@ RunFolder::RunFolder(const std::string& path, std::string_view marker) : path_(w
     if (!fs::is_directory(status)) throw Error(fmt::format("{}: is no folder; --out must name one", path_));
     const bool empty = fs::is_empty(path_, error) && !error;
     if (!empty && !fs::exists(fs::path(path_) / marker, error)) {
-      throw Error(fmt::format("{}: holds other files; --out must name a new or empty folder, or one that Espalier wrote "
-                              "(with {})", path_, marker));
+      throw Error(fmt::format("{}: holds other files; --out must name a new or empty folder, or one that Espalier "
+                              "wrote (with {})", path_, marker));
     }
   }
   error.clear();  // that there is nothing there yet was none

@@ -9,8 +9,8 @@ namespace espalier {
 
 class RunFolder {
  public:
-  /// `marker` is the file that tells our folders ("run.toml"). Makes the staging folder, and the folders above it. Throws
-  /// Error when `path` is taken by anything but an empty folder or an earlier one of ours, or cannot be written.
+  /// `marker` is the file that tells our folders ("run.toml"). Makes the staging folder, and the folders above it.
+  /// Throws Error when `path` is taken by anything but an empty folder or an earlier one of ours, or cannot be written.
   RunFolder(const std::string& path, std::string_view marker);
   /// Removes what was staged, unless committed or kept.
   ~RunFolder();

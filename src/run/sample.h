@@ -21,7 +21,7 @@ struct SampleRequest {
   std::map<std::string, std::string> attributes;  // as the language writes them
   std::uint32_t count = 16;                       // 1..1000
   std::uint64_t seed = 1;
-  std::optional<std::uint32_t> grow;              // this many steps of growth from a seedling, in place of the whole prior
+  std::optional<std::uint32_t> grow;              // this many steps of growth from a seedling, not the whole prior
   std::array<std::uint32_t, 2> picture = {800, 600};
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Scene: what a run is asked for: a grammar, targets, a search, a budget and what to keep. Plain data; docs/scenes.md is
-// its file format. Every default of the format is a default here.
+// Scene: what a run is asked for: a grammar, targets, a search, a budget and what to keep. Plain data; docs/scenes.md
+// is its file format. Every default of the format is a default here.
 
 #include <array>
 #include <cstdint>

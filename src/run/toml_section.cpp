@@ -83,7 +83,9 @@ std::uint64_t TomlSection::whole_in(const TomlValue& value, std::string_view key
   const bool fits = value.kind == TomlValue::Kind::integer && value.integer >= 0 &&
                     static_cast<std::uint64_t>(value.integer) >= low &&
                     static_cast<std::uint64_t>(value.integer) <= high;
-  if (!fits) fail_at(value, key, fmt::format("must be a whole number from {} to {}, got {}", low, high, describe(value)));
+  if (!fits) {
+    fail_at(value, key, fmt::format("must be a whole number from {} to {}, got {}", low, high, describe(value)));
+  }
   return static_cast<std::uint64_t>(value.integer);
 }
 

@@ -34,8 +34,8 @@ std::string describe(const TomlValue& value);
 /// Parses a whole document. Throws Error "NAME:LINE:COLUMN: ..." for anything that is not TOML in UTF-8.
 TomlValue parse_toml(std::string_view text, const std::string& name);
 
-/// Applies "dotted.key=value", as given on the command line. Array elements are named by index ("volume.mesh.0.file"); the
-/// index after the last one appends. The value is read as TOML and, where that fails, taken as text. Throws Error.
+/// Applies "dotted.key=value", as given on the command line. Array elements are named by index ("volume.mesh.0.file");
+/// the index after the last one appends. The value is read as TOML and, where that fails, taken as text. Throws Error.
 void apply_setting(TomlValue& root, std::string_view setting);
 
 /// A TOML string literal, quoted and escaped.

@@ -57,8 +57,8 @@ class Engine {
 
   /// Writes the whole state: an engine of the same problem and settings that loads it goes on as if never stopped.
   virtual void save(std::ostream& out) const = 0;
-  /// Throws Error for a stream that is cut short, of another version, engine, seed or settings, or that holds what is no
-  /// derivation of the graph; the engine is then as before.
+  /// Throws Error for a stream that is cut short, of another version, engine, seed or settings, or that holds what is
+  /// no derivation of the graph; the engine is then as before.
   virtual void load(std::istream& in) = 0;
 };
 

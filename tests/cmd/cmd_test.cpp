@@ -104,8 +104,8 @@ TEST_F(Cmd, RunPutsItsFolderBelowOutUnlessTold) {
 }
 
 TEST_F(Cmd, OptionsOfRunReachTheSettings) {
-  const ChildResult run = espalier({"run", "scene.toml", "--out", "made", "--seed", "11", "--evaluations", "40", "--keep",
-                                    "1", "--set", "search.mutation=0.9", "-D", "widest=2", "--engine", "ga"});
+  const ChildResult run = espalier({"run", "scene.toml", "--out", "made", "--seed", "11", "--evaluations", "40",
+                                    "--keep", "1", "--set", "search.mutation=0.9", "-D", "widest=2", "--engine", "ga"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(read_text(folder_ / "made/run.toml"),
               AllOf(HasSubstr("seed = 11\n"), HasSubstr("evaluations = 40\n"), Not(HasSubstr("generations =")),

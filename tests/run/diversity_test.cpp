@@ -78,7 +78,9 @@ TEST(DiverseArchive, MembersAreSortedFarApartAndHoldTheBest) {
   double best = -1;
   for (std::uint32_t round = 0; round < 30; ++round) {
     std::vector<Individual> population;
-    for (std::uint32_t i = 0; i < 10; ++i) population.push_back({grown(*graph, round * 10 + i, 4 + i), random.next_unit()});
+    for (std::uint32_t i = 0; i < 10; ++i) {
+      population.push_back({grown(*graph, round * 10 + i, 4 + i), random.next_unit()});
+    }
     std::sort(population.begin(), population.end(), [](auto& a, auto& b) { return a.score > b.score; });
     best = std::max(best, population[0].score);
     archive.offer(population);

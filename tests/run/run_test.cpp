@@ -286,8 +286,8 @@ TEST(Export, WritesEveryFormatAndIsReproducible) {
   }
   export_derivation({folder / "out/best.derivation.json", "", {}, folder / "exports/m.stl"}, source, *executor);
   EXPECT_THROW(reproduce(folder / "exports/m.stl", "", source, *executor), Error);
-  EXPECT_THROW(export_derivation({folder / "out/best.derivation.json", "", {}, folder / "exports/m.png"}, source, *executor),
-               Error);
+  const ExportRequest picture = {folder / "out/best.derivation.json", "", {}, folder / "exports/m.png"};
+  EXPECT_THROW(export_derivation(picture, source, *executor), Error);
   export_derivation({folder / "out/best.derivation.json", folder / "pile.esp", {}, folder / "exports/n.glb"}, source,
                     *executor);
   EXPECT_EQ(fs::file_size(folder / "exports/n.glb") > 0, true);

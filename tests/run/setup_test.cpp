@@ -109,8 +109,8 @@ TEST(Setup, TheSameTargetTwiceIsStoredOnceAndNamesakesApart) {
 TEST(Setup, MeshesThatTheGrammarNamesKeepTheirPlaceBesideIt) {
   const TemporaryFolder folder;
   write_text(folder / "grammars/trees/g.esp",
-             "grammar g 1\nmesh twig = \"../../meshes/twig.obj\"\nmesh near = \"near.obj\"\nstart G\nrule G { emit twig  "
-             "maybe 0.5 spawn H }\nrule H { k ~ uniform(1, 2)  size k  emit near }\n");
+             "grammar g 1\nmesh twig = \"../../meshes/twig.obj\"\nmesh near = \"near.obj\"\nstart G\n"
+             "rule G { emit twig  maybe 0.5 spawn H }\nrule H { k ~ uniform(1, 2)  size k  emit near }\n");
   write_text(folder / "meshes/twig.obj", testing::box_obj(0, 0, 0, 1, 1, 1));
   write_text(folder / "grammars/trees/near.obj", testing::box_obj(0, 0, 0, 2, 1, 1));
   write_text(folder / "meshes/tower.obj", testing::box_obj(-1, 0, -1, 1, 4, 1));
@@ -183,7 +183,8 @@ TEST(Reach, WarnsOfATargetThatTheGrammarDoesNotGetTo) {
   ASSERT_EQ(large.size(), 1u);
   EXPECT_THAT(large[0], HasSubstr(" % of it"));
   // What shall be avoided may well be out of reach.
-  EXPECT_THAT(warn_of_reach(*set_up_in(folder, {"volume.mesh.0.position=[0, 0, 50]", "volume.mesh.0.fill=-1"})), IsEmpty());
+  const auto avoided = set_up_in(folder, {"volume.mesh.0.position=[0, 0, 50]", "volume.mesh.0.fill=-1"});
+  EXPECT_THAT(warn_of_reach(*avoided), IsEmpty());
 }
 
 }  // namespace

@@ -46,7 +46,8 @@ TEST(Selection, RouletteNeverPicksTheWorstHoweverSmallTheOthers) {
 
 TEST(Selection, TournamentOfThreeTakesTheBestDrawn) {
   // With n = 4 distinct scores the r-th best wins with ((5 - r)^3 - (4 - r)^3) / 4^3.
-  EXPECT_LT(chi_square(SelectionScheme::tournament, 3, {10, 40, 20, 30}, {1 / 64., 37 / 64., 7 / 64., 19 / 64.}), 16.27);
+  EXPECT_LT(chi_square(SelectionScheme::tournament, 3, {10, 40, 20, 30}, {1 / 64., 37 / 64., 7 / 64., 19 / 64.}),
+            16.27);
 }
 
 TEST(Selection, TournamentTiesGoToTheLowestIndex) {
