@@ -1,5 +1,6 @@
-// Eight lanes of 32 bits (or four of 64) on every machine: one AVX2 register or two of 128 bits. All paths give the same
-// bytes: no fused multiply-add, no approximations, shifts by 32 and more give 0. Included once per target.
+// Eight lanes of 32 bits, or four of 64, on every machine: one AVX2 register, two of 128 bits, or plain numbers. All
+// paths give the same bytes: no fused multiply-add, no approximations, shifts by 32 and more give 0. Included once per
+// target.
 
 #if defined(ESPALIER_SCORE_EIGHT_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ESPALIER_SCORE_EIGHT_INL_H

@@ -31,6 +31,17 @@ struct D4Linear {
   D4 a, b, c;
 };
 
+/// Half the box, radius at the middle, and radius per height of cylinders and cones.
+struct RoundSize {
+  D4 extent[3], radius, taper;
+};
+
+/// What SpanForm::set_round finds: middle, along and across as (x, y, 1) coefficients, <d,d> and the radius' slope.
+struct RoundForms {
+  D4 middle[3], along[3], across[3];
+  D4 square, rz;
+};
+
 /// Four parts of one kind, and what was found out about them.
 class PartBatch {
  public:
@@ -47,7 +58,8 @@ class PartBatch {
 
   bool ready(int lane) const { return ready_[lane]; }
   bool empty(int lane) const {  // reaches no lattice point of the window
-    return reach_[0][lane] >= reach_[3][lane] || reach_[1][lane] >= reach_[4][lane] || reach_[2][lane] >= reach_[5][lane];
+    return reach_[0][lane] >= reach_[3][lane] || reach_[1][lane] >= reach_[4][lane] ||
+           reach_[2][lane] >= reach_[5][lane];
   }
   /// Round parts: Quadric::lens, else up or down.
   bool lens(int lane) const { return lens_[lane]; }
@@ -67,11 +79,14 @@ class PartBatch {
   /// The depth of the plane z = a x + b y + c.
   HWY_INLINE void set_depth(int row, const D4& a, const D4& b, const D4& c) { set_linear(row, {-a, -b, base_ - c}); }
   HWY_INLINE void set_band(int index, const D4& slope, const D4& low, const D4& high);
+  HWY_INLINE void sphere_axes(const D4 u[3], D4 e1[3], D4 e2[3]) const;
+  HWY_INLINE void place_rounds(const Lattice& lattice, const Instance* const part[4], bool tapered, RoundSize& size);
+  HWY_INLINE RoundForms round_forms(const RoundSize& size) const;
+  HWY_INLINE void require_good_forms(const RoundSize& size, const RoundForms& f);
   HWY_INLINE void finish();
 
   alignas(32) float values_[kRows][4];
   alignas(32) double reach_[6][4], origin_[3][4], ready_mask_[4];
-  alignas(32) double lens_mask_[4], up_mask_[4];
   bool ready_[4], lens_[4], up_[4];
 
   D4 m_[3][3], o_[3];    // placement: lattice = m * mesh + o
@@ -135,7 +150,8 @@ HWY_INLINE void PartBatch::set_reach(const Lattice& lattice, const D4 centre[3],
   for (int j = 0; j < 3; ++j) t_[j] = l_[j][0] * from_o[0] + l_[j][1] * from_o[1] + l_[j][2] * from_o[2];
 }
 
-/// |n . (x, y, z) + offset| <= size / 2. Where it only bounds y, the reach does that already: a slab that bounds nothing.
+/// |n . (x, y, z) + offset| <= size / 2. Where that only bounds y, the reach does it already: then a slab that bounds
+/// nothing.
 HWY_INLINE void PartBatch::set_slab(int index, const D4& nx, const D4& ny, const D4& nz, const D4& offset,
                                     const D4& size) {
   const D4 ax = magnitude(nx), ay = magnitude(ny), az = magnitude(nz);

@@ -38,10 +38,14 @@ ReferencePart::ReferencePart(const MeshRef& ref, const Mesh& mesh, const Instanc
   const double wide = tapered && !few_sides ? std::max(1.0, top_) : 1.0;
   double size[3];
   for (int j = 0; j < 3; ++j) size[j] = double{box.max[j]} - double{box.min[j]};
-  double sum = 0;
-  for (int i = 0; i < 3; ++i) sum += std::abs(origin_[i]) + std::abs(basis_[i][0]) + std::abs(basis_[i][1]) + std::abs(basis_[i][2]);
-  if (!(sum < 1e30) || (kind_ != MeshKind::file && flat(cell, size))) return;
+  if (!finite() || (kind_ != MeshKind::file && flat(cell, size))) return;
   empty_ = false;
+  set_box(box, wide);
+  if (by_facets_) set_corners();
+}
+
+/// The box of the placed mesh box, which is `wide` times as wide across y.
+void ReferencePart::set_box(const Bounds& box, double wide) {
   for (int i = 0; i < 3; ++i) {
     low_[i] = high_[i] = origin_[i];
     for (int j = 0; j < 3; ++j) {
@@ -51,7 +55,9 @@ ReferencePart::ReferencePart(const MeshRef& ref, const Mesh& mesh, const Instanc
       high_[i] += std::max(a, b);
     }
   }
-  if (!by_facets_) return;
+}
+
+void ReferencePart::set_corners() {
   for (const Triangle& t : mesh_.triangles) {
     for (const std::uint32_t corner : t) {
       const Vec3& p = mesh_.positions[corner];
@@ -79,6 +85,15 @@ void ReferencePart::place(const Frame& frame) {
   for (auto& row : inverse_) {
     for (double& v : row) v /= det;
   }
+}
+
+/// NaN, infinity and what lies beyond 1e30 metres cover nothing.
+bool ReferencePart::finite() const {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    sum += std::abs(origin_[i]) + std::abs(basis_[i][0]) + std::abs(basis_[i][1]) + std::abs(basis_[i][2]);
+  }
+  return sum < 1e30;
 }
 
 /// Opposite faces of the mesh's box lie less than a millionth of a cell apart.

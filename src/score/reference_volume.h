@@ -27,7 +27,10 @@ class ReferencePart {
 
  private:
   void place(const Frame& frame);
+  bool finite() const;
   bool flat(const Vec3& cell, const double size[3]) const;
+  void set_box(const Bounds& box, double wide);
+  void set_corners();
   bool inside_mesh(const double p[3]) const;
 
   MeshKind kind_;

@@ -20,7 +20,7 @@ enum class SolidKind : std::uint8_t {
   facets,   // any other mesh: parity of crossings
 };
 
-/// Cylinders and cones with at least this many sides count as round, with fewer as the polyhedra that they are drawn as.
+/// Cylinders and cones with at least this many sides count as round, with fewer as the polyhedra that are drawn.
 inline constexpr std::uint16_t kRoundFromSides = 12;
 
 /// The half space normal . p <= offset, in mesh space.

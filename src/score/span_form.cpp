@@ -8,8 +8,6 @@ namespace {
 
 /// A face that leans by less than this many cells over the height of its part counts as upright.
 constexpr double kUpright = 1e-6;
-/// Estimated error of a cone's row end, in units of float rounding; beyond it doubles take over (see well_conditioned).
-constexpr double kWorstCondition = 300;  // also in part_batch-inl.h
 
 LinearForm scaled(double a, double b, double c, double s) {
   return {static_cast<float>(a * s), static_cast<float>(b * s), static_cast<float>(c * s)};
@@ -167,7 +165,8 @@ bool SpanForm::set(const ConvexShape& shape) {
     origin_[i] = shape.origin[i];
     if (reach_.high[i] - reach_.low[i] > kFloatReach) return false;
     // Curved shapes square their distances from the origin, which must not lie far away.
-    if (shape.extent[i] > kFloatReach && (shape.kind == SolidKind::round || shape.kind == SolidKind::sphere)) return false;
+    const bool curved = shape.kind == SolidKind::round || shape.kind == SolidKind::sphere;
+    if (curved && shape.extent[i] > kFloatReach) return false;
   }
   top_word_ = floor_div(reach_.high[2] - 1, 32);
   f_top_ = static_cast<float>(32 * (top_word_ + 1) - reach_.high[2]);

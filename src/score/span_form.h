@@ -1,7 +1,7 @@
 #pragma once
-// SpanForm: a convex shape as the SIMD kernel draws it, in floats. Rows run along z and are measured from above: a row's
-// depth f = base - z counts from the top of the highest 32-voxel word that the part reaches, so that f is never negative
-// and ceil(z) becomes truncation. A row covers the depths between f_high (its upper end, smaller f) and f_low.
+// SpanForm: a convex shape as the SIMD kernel draws it, in floats. Rows run along z and are measured from above: the
+// depth f = base - z counts from the top of the highest 32-voxel word that the part reaches, so that f is never
+// negative and ceil(z) becomes truncation. A row covers the depths between f_high (its upper end, smaller f) and f_low.
 
 #include <cstdint>
 
@@ -89,6 +89,9 @@ class SpanForm {
   bool upright_;                  // a cylinder along z: its ellipse as limits
   double ellipse_[5];
 };
+
+/// Estimated error of a cone's row end, in units of float rounding; beyond it doubles take over.
+inline constexpr double kWorstCondition = 300;
 
 /// Parts that reach over more cells than this lose too much in floats.
 inline constexpr std::int32_t kFloatReach = 768;

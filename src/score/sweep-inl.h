@@ -65,7 +65,9 @@ class BitSum {
     hn::Store(words, WordTag(), lane);
     for (std::size_t i = 0; i < kStep; ++i) sum_ += static_cast<std::uint64_t>(std::popcount(lane[i]));
   }
-  HWY_INLINE void add(const Words& a, const Words& b, const Words& c, const Words& d) { add(a), add(b), add(c), add(d); }
+  HWY_INLINE void add(const Words& a, const Words& b, const Words& c, const Words& d) {
+    add(a), add(b), add(c), add(d);
+  }
   HWY_INLINE std::uint64_t total() const { return sum_; }
 
  private:

@@ -64,7 +64,8 @@ double VolumeTarget::evaluate(const VolumeCounts& counts) const {
 
 std::vector<Term> VolumeTarget::breakdown(const VolumeCounts& counts) const {
   std::vector<Term> terms;
-  each_term(counts, [&](const char* name, const VolumeMesh* mesh, double weight, double count, double of, double factor) {
+  each_term(counts, [&](const char* name, const VolumeMesh* mesh, double weight, double count, double of,
+                        double factor) {
     Term t;
     t.name = mesh == nullptr ? name : fmt::format("{} {}", name, mesh->name);
     t.weight = weight;

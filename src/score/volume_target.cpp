@@ -74,42 +74,45 @@ double step_optimum(const VolumeSettings& settings, double spill) {
   return sum;
 }
 
-}  // namespace
-
-VolumeTarget::VolumeTarget(VolumeSettings settings, const MeshTable& meshes) {
-  fill_in(settings);
+/// Takes the meshes out of the settings: their voxels are all that is needed.
+std::vector<BitGrid> voxelise_targets(VolumeSettings& settings, std::vector<std::string>& warnings) {
   std::vector<BitGrid> targets;
-  std::vector<std::string> warnings;
-  std::vector<std::uint64_t> voxels;
   for (VolumeMesh& mesh : settings.meshes) {
     VoxelisedMesh v = voxelise(mesh.mesh, settings.grid);
     if (v.open_edges > 0) {
       warnings.push_back(fmt::format("{}: {} is not closed ({} open edges); its inside was guessed by a vote of rays "
                                      "along x, y and z", settings.name, mesh.name, v.open_edges));
     }
-    voxels.push_back(v.voxels.count());
-    if (voxels.back() == 0) {
+    if (v.voxels.count() == 0) {
       throw Error(fmt::format("{}: {} covers no voxel: it is flat, thinner than a cell, or outside the grid",
                               settings.name, mesh.name));
     }
     targets.push_back(std::move(v.voxels));
-    mesh.mesh = Mesh();  // the voxels are all that is needed
+    mesh.mesh = Mesh();
   }
-  BitGrid wanted(settings.grid.cells[0], settings.grid.cells[1], settings.grid.cells[2]);
-  const bool any_fill = std::any_of(settings.meshes.begin(), settings.meshes.end(), [](auto& m) { return m.fill > 0; });
-  double spill = 0;
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    if (!any_fill || settings.meshes[i].fill > 0) unite(wanted, targets[i]);
-    spill += *settings.meshes[i].spill;
-  }
+  return targets;
+}
+
+}  // namespace
+
+VolumeTarget::VolumeTarget(VolumeSettings settings, const MeshTable& meshes) {
+  fill_in(settings);
+  std::vector<std::string> warnings;
+  std::vector<BitGrid> targets = voxelise_targets(settings, warnings);
   const VoxelGrid grid = settings.grid;
-  auto parts = std::make_unique<Parts>(Parts{std::move(settings), VolumeKernel(grid, make_solids(meshes), std::move(targets)),
-                                             std::move(voxels), wanted.count(), std::move(warnings)});
-  spill_ = spill;
-  wanted_ = in_voxels(parts->wanted);
-  optimum_ = parts->settings.form == VolumeForm::linear ? linear_optimum(parts->settings, parts->kernel)
-                                                        : step_optimum(parts->settings, spill);
-  parts_ = std::move(parts);
+  BitGrid wanted(grid.cells[0], grid.cells[1], grid.cells[2]);
+  const bool any_fill = std::any_of(settings.meshes.begin(), settings.meshes.end(), [](auto& m) { return m.fill > 0; });
+  std::vector<std::uint64_t> voxels;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    voxels.push_back(targets[i].count());
+    if (!any_fill || settings.meshes[i].fill > 0) unite(wanted, targets[i]);
+    spill_ += *settings.meshes[i].spill;
+  }
+  VolumeKernel kernel(grid, make_solids(meshes), std::move(targets));
+  optimum_ = settings.form == VolumeForm::linear ? linear_optimum(settings, kernel) : step_optimum(settings, spill_);
+  wanted_ = in_voxels(wanted.count());
+  parts_ = std::make_unique<const Parts>(
+      Parts{std::move(settings), std::move(kernel), std::move(voxels), wanted.count(), std::move(warnings)});
 }
 
 VolumeTarget::~VolumeTarget() = default;

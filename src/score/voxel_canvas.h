@@ -1,6 +1,6 @@
 #pragma once
 // VoxelCanvas: what one thread draws a model's parts into: two bit planes in the layout of BitGrid (covered, covered
-// twice or more), which stretches of them are in use, and the running sums. Between models the planes are all zero.
+// twice or more), which blocks of them are in use, and the running sums. Between models the planes are all zero.
 
 #include <cstdint>
 #include <vector>
@@ -31,7 +31,8 @@ struct VoxelCanvas {
     return (static_cast<std::size_t>(tile_row) * once.depth() + static_cast<std::size_t>(word)) * nx() * 8;
   }
   std::uint64_t* dirty_row(std::int32_t tile_row, std::int32_t word) {
-    return dirty.data() + (static_cast<std::size_t>(tile_row) * once.depth() + static_cast<std::size_t>(word)) * dirty_words;
+    const std::size_t row = static_cast<std::size_t>(tile_row) * once.depth() + static_cast<std::size_t>(word);
+    return dirty.data() + row * dirty_words;
   }
   /// Notes that tiles x in [from, to) of a tile row may hold set bits; from < to.
   void mark(std::int32_t tile_row, std::int32_t word, std::int32_t from, std::int32_t to) {

@@ -125,7 +125,8 @@ inline Mat3 random_rotation(Dice& dice) {
               1 - s * (x * x + y * y));
 }
 
-/// A frame of about `size` within a box: along the axes, turned about one axis, turned freely, or sheared; some mirrored.
+/// A frame of about `size` within a box: along the axes, turned about one axis, turned freely, or sheared; some are
+/// mirrored.
 inline Frame random_frame(Dice& dice, const Vec3& low, const Vec3& high, float size) {
   Frame frame;
   const std::uint32_t how = dice.below(4);

@@ -46,7 +46,8 @@ TEST(VolumeKernel, CountsOverlapOncePerVoxelAndHitsPerPart) {
 TEST(VolumeKernel, CountsInsidePerTargetAndSpilledInNone) {
   BitGrid a(10, 10, 10), b(10, 10, 10);
   for (std::uint32_t z = 0; z < 10; ++z) a.set(1, 1, z), b.set(1, 1, z), b.set(2, 1, z);
-  const VolumeCounts counts = count(unit_grid(10, 10, 10), {part(kBox, box_frame(Vec3(1, 1, 0), Vec3(5, 3, 4)))}, {a, b});
+  const Instance box = part(kBox, box_frame(Vec3(1, 1, 0), Vec3(5, 3, 4)));
+  const VolumeCounts counts = count(unit_grid(10, 10, 10), {box}, {a, b});
   EXPECT_EQ(counts.inside, (std::vector<std::uint64_t>{4, 8}));
   EXPECT_EQ(counts.covered, 32u);
   EXPECT_EQ(counts.spilled, 24u);

@@ -119,7 +119,8 @@ TEST(VolumeTarget, OptimumIsReachedByTheTargetItself) {
     VolumeSettings s = settings(form);
     s.meshes[0].fill = 2.5;
     const VolumeTarget target(s, test_meshes());
-    const VolumeCounts counts = target.counts(std::vector{part(kBox, box_frame(Vec3(0), Vec3(4)))}, *target.make_scratch());
+    const std::vector<Instance> whole = {part(kBox, box_frame(Vec3(0), Vec3(4)))};
+    const VolumeCounts counts = target.counts(whole, *target.make_scratch());
     EXPECT_EQ(target.evaluate(counts), target.optimum());
     EXPECT_EQ(target.optimum(), form == VolumeForm::linear ? 160 : 2.5);
   }
