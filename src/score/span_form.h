@@ -91,7 +91,7 @@ class SpanForm {
 };
 
 /// Estimated error of a cone's row end, in units of float rounding; beyond it doubles take over.
-inline constexpr double kWorstCondition = 300;
+inline constexpr double kWorstCondition = 1000;
 
 /// Parts that reach over more cells than this lose too much in floats.
 inline constexpr std::int32_t kFloatReach = 768;
