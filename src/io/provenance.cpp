@@ -89,6 +89,10 @@ std::optional<Provenance> in_comment(std::string_view text, std::string_view mar
 std::optional<Provenance> in_stl_header(std::string_view bytes) {
   constexpr std::string_view kMark = "espalier ";
   if (bytes.size() < 84 || !bytes.starts_with(kMark)) return std::nullopt;
+  // A header, a count, 50 bytes per triangle: other texts may begin with our name too.
+  std::uint32_t triangles = 0;
+  for (std::size_t i = 84; i-- > 80;) triangles = triangles << 8 | static_cast<unsigned char>(bytes[i]);
+  if (bytes.size() != 84 + std::uint64_t{50} * triangles) return std::nullopt;
   std::string header(bytes.substr(0, 80));
   header.erase(std::min(header.size(), header.find('\0')));
   const std::size_t space = header.find(' ', kMark.size());

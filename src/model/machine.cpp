@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 #include "base/check.h"
@@ -52,7 +53,14 @@ Machine::Machine(const GeneratorGraph& graph)
 }
 
 void Machine::take(const PendingQueue& queue, std::size_t i) {
-  current_ = queue[i];
+  // Field by field: wider loads than the stores that made them would wait for those to reach the cache.
+  const Pending& item = queue[i];
+  current_.state = item.state;
+  current_.at.gene = item.at.gene;
+  current_.at.slot = item.at.slot;
+  current_.at.draw = item.at.draw;
+  current_.depth = item.depth;
+  current_.program = item.program;
   const float* floats = queue.floats(i);
   for (std::uint32_t k = 0; k < counted_; ++k) registers_[kFirstDepthOfRegister + k] = *floats++;
   for (std::uint32_t k = 0; k < parameters_; ++k) registers_[graph_.registers.local_base + k] = *floats++;
@@ -105,11 +113,6 @@ float Machine::draw_normal(const Op& op, float u) const {
 Vec3 Machine::point(const Lanes& local) const {
   const State& s = current_.state;
   return vec3(s.origin + local[0] * s.axis[0] + local[1] * s.axis[1] + local[2] * s.axis[2]);
-}
-
-void Machine::set_scope(int axis, float size) {
-  registers_[kScopeRegister + axis] = size;
-  current_.state.broken |= !(size >= 0);
 }
 
 void Machine::turn_axis(int axis, float angle) {
@@ -177,16 +180,15 @@ void Machine::emit(const Op& op, Layer layer) {
   // The sum is finite just when all terms are (or so large that they might as well not be).
   const Lanes sum = (column[0] + column[1]) + (column[2] + column[3]);
   const Lanes zero = sum - sum;
-  if (s.broken || !(zero[0] + zero[1] + zero[2] == 0)) {
+  if (broken_scope() || !(zero[0] + zero[1] + zero[2] == 0)) {
     ++model->dropped;
     return;
   }
   if (!spend_part()) return;
   Instance& instance = model->instances.emplace_back();
-  static_assert(sizeof(Frame) == 12 * sizeof(float));
-  float packed[16];
-  for (int i = 0; i < 4; ++i) std::memcpy(packed + 3 * i, &column[i], sizeof(Lanes));  // each overwrites a fourth lane
-  std::memcpy(static_cast<void*>(&instance.model_from_mesh), packed, sizeof(Frame));
+  static_assert(sizeof(Frame) == 12 * sizeof(float) && offsetof(Instance, top) == sizeof(Frame));
+  char* const frame = reinterpret_cast<char*>(&instance);
+  for (int i = 0; i < 4; ++i) std::memcpy(frame + 12 * i, &column[i], sizeof(Lanes));  // each overwrites a fourth lane
   instance.top = value(op.y);
   instance.mesh = static_cast<std::uint16_t>(value(op.x));
   instance.material = static_cast<std::uint16_t>(s.material);
@@ -196,7 +198,7 @@ void Machine::emit(const Op& op, Layer layer) {
 
 void Machine::make_bone(const Op& op) {
   const Vec3 from = point(lanes_at(op.a)), to = point(lanes_at(op.b));
-  if (current_.state.broken || !(length(to - from) < INFINITY) || !(length(to) < INFINITY)) {
+  if (broken_scope() || !(length(to - from) < INFINITY) || !(length(to) < INFINITY)) {
     ++model->dropped;
     return;
   }
@@ -206,7 +208,7 @@ void Machine::make_bone(const Op& op) {
 
 void Machine::call(const Program& program, std::uint16_t call_site) {
   if (!details_wanted || call_site == kNoCall) return;
-  if (current_.state.broken) {
+  if (broken_scope()) {
     ++model->dropped;
     return;
   }
@@ -230,7 +232,7 @@ void Machine::run_slot(const Program& program, const Op& op, const Derivation& d
     case SlotState::absent: call(program, code.on_empty); return;
     case SlotState::filled: break;
   }
-  if (current_.state.broken) {
+  if (broken_scope()) {
     ++model->dropped;
     return;
   }
@@ -322,7 +324,11 @@ void Machine::run(const Program& program, const Derivation* derivation) {
         break;
       }
       case OpCode::unary: registers_[op.dst] = apply_unary(op.arithmetic, value(op.x)); break;
-      case OpCode::binary: registers_[op.dst] = apply_binary(op.arithmetic, value(op.x), value(op.y)); break;
+      case OpCode::binary:
+        registers_[op.dst] = op.arithmetic == Arithmetic::multiply
+                                 ? value(op.x) * value(op.y)
+                                 : apply_binary(op.arithmetic, value(op.x), value(op.y));
+        break;
       case OpCode::ternary:
         registers_[op.dst] = apply_ternary(op.arithmetic, value(op.x), value(op.y), value(op.z));
         break;
@@ -345,6 +351,7 @@ void Machine::run(const Program& program, const Derivation* derivation) {
         state.key = key_below(state.key, static_cast<std::uint64_t>(static_cast<std::int64_t>(value(op.x))));
         break;
       case OpCode::reseed: state.key = scatter(std::bit_cast<std::uint32_t>(value(op.x)) + 0x5eedull); break;
+      default: __builtin_unreachable();
     }
   }
 }

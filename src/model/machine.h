@@ -53,7 +53,9 @@ class Machine {
     return Lanes{registers_[reg], registers_[reg + 1], registers_[reg + 2], 0};
   }
   Vec3 point(const Lanes& local) const;
-  void set_scope(int axis, float size);
+  void set_scope(int axis, float size) { registers_[kScopeRegister + axis] = size; }
+  /// A size is negative or not a number: nothing is emitted, nor does anything stand below (language.md 29).
+  bool broken_scope() const { return !(registers_[0] >= 0 && registers_[1] >= 0 && registers_[2] >= 0); }
   float draw_normal(const Op& op, float u) const;
   void place_children(const Derivation& derivation);
   void turn_axis(int axis, float angle);

@@ -19,7 +19,6 @@ struct State {
   std::uint64_t key = 0;
   std::int32_t bone = -1;
   float material = 0;
-  bool broken = false;  // a size was negative or not a number: emits nothing, nor does what stands below
 };
 
 struct Pending {

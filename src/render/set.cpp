@@ -11,7 +11,7 @@
 namespace espalier {
 namespace {
 
-constexpr std::size_t kMostGhostCorners = 20'000;  // of a ghost's positions, for a snug frame; its box beyond
+constexpr std::size_t kMostGhostCorners = 2'000'000;  // of a ghost's positions, for a snug frame; its box beyond
 
 /// Flat shapes often come with no length along their flat axis: gives them one, so that the frame can be inverted.
 Mat3 with_depth(Mat3 basis, const Bounds& shape_box) {

@@ -63,6 +63,7 @@ void read_search(const TomlValue& table, const std::string& file, SceneSearch& s
   take(ga.grow, s.number("grow", 0, 1e6));
   take(ga.cut, s.number("cut", 0, 1e6));
   take(ga.alter, s.number("alter", 0, 1e6));
+  take(ga.nudge, s.number("nudge", 0, 1e6));
   take(ga.first, s.choice("first", kSelectionSchemes));
   take(ga.second, s.choice("second", kSelectionSchemes));
   take(ga.tournament_size, s.whole("tournament_size", 1, 10'000));
@@ -70,6 +71,8 @@ void read_search(const TomlValue& table, const std::string& file, SceneSearch& s
   take(ga.retries, s.whole("retries", 1, 1000));
   take(ga.replace_probability, s.number("replace_probability", 0, 1));
   take(ga.reuse_scores, s.boolean("reuse_scores"));
+  take(ga.restart_after, s.whole("restart_after", 0, 1'000'000'000));
+  take(ga.unique, s.boolean("unique"));
   s.finish();
 }
 

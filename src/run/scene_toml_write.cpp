@@ -45,12 +45,13 @@ void write_search(SceneWriter& w, const SceneSearch& search) {
   } else {
     w.line("initial_length = [{}, {}]", ga.initial_length_min, ga.initial_length_max);
   }
-  w.line("mutation = {}\ngrow = {}\ncut = {}\nalter = {}", format_toml(ga.mutation), format_toml(ga.grow),
-         format_toml(ga.cut), format_toml(ga.alter));
+  w.line("mutation = {}\ngrow = {}\ncut = {}\nalter = {}\nnudge = {}", format_toml(ga.mutation),
+         format_toml(ga.grow), format_toml(ga.cut), format_toml(ga.alter), format_toml(ga.nudge));
   w.line("first = \"{}\"\nsecond = \"{}\"\ntournament_size = {}", word_for(kSelectionSchemes, ga.first),
          word_for(kSelectionSchemes, ga.second), ga.tournament_size);
-  w.line("crossover = \"{}\"\nretries = {}\nreplace_probability = {}\nreuse_scores = {}",
-         word_for(kCompatibilities, ga.crossover), ga.retries, format_toml(ga.replace_probability), ga.reuse_scores);
+  w.line("crossover = \"{}\"\nretries = {}\nreplace_probability = {}\nreuse_scores = {}\nunique = {}\nrestart_after = {}",
+         word_for(kCompatibilities, ga.crossover), ga.retries, format_toml(ga.replace_probability), ga.reuse_scores,
+         ga.unique, ga.restart_after);
 }
 
 void write_volume(SceneWriter& w, const SceneVolume& volume) {

@@ -41,7 +41,10 @@ const Individual& GaEngine::best() const {
 void GaEngine::step() {
   newcomers_.resize(settings_.population);
   scored_.assign(settings_.population, 0);
-  if (steps_ == 0) {
+  const double best_before = steps_ == 0 ? 0 : population_.front().score;
+  const bool anew = steps_ == 0 || restart_is_due();
+  if (steps_ > 0 && anew) restart();
+  if (anew) {
     make_initial_population();
   } else {
     make_next_generation();
@@ -49,18 +52,33 @@ void GaEngine::step() {
   score_newcomers();
   sort_newcomers();
   if (steps_ == 0 || population_.front().score > best_.score) best_ = population_.front();
+  stalled_ = anew || population_.front().score > best_before ? 0 : stalled_ + 1;
   ++steps_;
 }
 
 void GaEngine::make_initial_population() {
   for (std::uint32_t i = 0; i < settings_.population; ++i) newcomers_[i].derivation = make_individual(i);
+  if (champions_.size() < kReunion) return;
+  for (std::size_t i = 0; i < champions_.size() && i < newcomers_.size(); ++i) {
+    newcomers_[i] = champions_[i];
+    scored_[i] = 1;
+  }
+  champions_.clear();
+}
+
+bool GaEngine::restart_is_due() const { return settings_.restart_after > 0 && stalled_ >= settings_.restart_after; }
+
+void GaEngine::restart() {
+  champions_.push_back(population_.front());
+  ++epoch_;
+  ++counts_.restarts;
 }
 
 Derivation GaEngine::make_individual(std::uint32_t index) {
   const std::uint32_t low = std::max(settings_.initial_length_min, settings_.genes.min);
   const std::uint32_t high = std::min(settings_.initial_length_max, settings_.genes.max);
   for (std::uint32_t attempt = 0; attempt < kMostStarts; ++attempt) {
-    RandomStream random({problem_.seed, Purpose::initial, problem_.lane, index, attempt});
+    RandomStream random({problem_.seed, Purpose::initial, problem_.lane, index, epoch_ * kMostStarts + attempt});
     const std::uint32_t length = low + random.below(high - low + 1);
     Derivation derivation = seedling(*problem_.graph, random);
     close_open_slots(*problem_.graph, derivation, random);
@@ -81,10 +99,12 @@ void GaEngine::make_next_generation() {
   second_.prepare(scores_);
   remember_population();
 
+  born_.clear();
   const std::size_t elite = settings_.elitism;
   for (std::size_t i = 0; i < elite; ++i) {
     newcomers_[i] = population_[i];
     scored_[i] = 1;
+    if (settings_.unique) born_.insert(hash(newcomers_[i].derivation));
   }
   std::uint32_t pair = 0;
   for (std::size_t place = elite; place < newcomers_.size(); place += 2, ++pair) {
@@ -106,6 +126,8 @@ void GaEngine::breed_pair(std::uint32_t pair, std::size_t first_child, std::size
       const std::size_t genes = child.individual.derivation.size();
       if (genes < settings_.genes.min || genes > settings_.genes.max) {
         ++counts_.redrawn_children;
+      } else if (settings_.unique && !born_.insert(hash(child.individual.derivation)).second) {
+        ++counts_.redrawn_twins;
       } else {
         admit(child, first_child + made++);
       }

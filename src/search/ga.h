@@ -5,6 +5,7 @@
 // Cost per step: at most population - elitism evaluations (the first: population). An individual that did not change
 // keeps its score.
 
+#include <unordered_set>
 #include <vector>
 
 #include "search/engine.h"
@@ -32,7 +33,12 @@ class GaEngine final : public Engine {
   void load(std::istream& in) override;
 
  private:
+  /// With restarts, every kReunion-th population starts with the best of those since the last such.
+  static constexpr std::uint32_t kReunion = 4;
+
   void make_initial_population();
+  bool restart_is_due() const;
+  void restart();
   Derivation make_individual(std::uint32_t index);
   void make_next_generation();
   void breed_pair(std::uint32_t pair, std::size_t first_child, std::size_t children);
@@ -49,6 +55,9 @@ class GaEngine final : public Engine {
   std::uint64_t steps_ = 0;
   std::uint64_t evaluations_ = 0;
   GaCounts counts_;
+  std::uint32_t epoch_ = 0;     // populations begun so far, less one
+  std::uint64_t stalled_ = 0;   // generations since the best of this population last rose
+  std::vector<Individual> champions_;  // the best of the populations since the last reunion
   Individual best_;
 
   // Two populations change places every generation, so once warm nothing is allocated.
@@ -64,6 +73,7 @@ class GaEngine final : public Engine {
     std::uint64_t hash;
     std::size_t index;
   };
+  std::unordered_set<std::uint64_t> born_;  // unique only: hashes of the generation being made
   std::vector<Known> known_;  // reuse_scores only: the population by hash
 };
 

@@ -10,11 +10,12 @@
 namespace espalier {
 namespace {
 
-constexpr std::array<GaPreset, 4> kPresets = {{
+constexpr std::array<GaPreset, 5> kPresets = {{
     {"ga-2017", "ShapeGenetics 2017, section 8, trees and spaceships"},
     {"ga-2017-city", "ShapeGenetics 2017, section 8, cities: more mutation"},
     {"ga-2016", "Haubenwallner et al. 2016, section 4.2: the baseline"},
     {"ga-2016-final", "Haubenwallner et al. 2016, section 4.3: the final parameters"},
+    {"ga-local", "ga-2017 with nudges, no twins, and a new population where one has stalled"},
 }};
 
 template <typename T>
@@ -30,8 +31,9 @@ void require_shares(const GaSettings& s) {
   require_range("grow", s.grow, 0.0, kMost);
   require_range("cut", s.cut, 0.0, kMost);
   require_range("alter", s.alter, 0.0, kMost);
-  if (s.mutation > 0 && !(s.grow + s.cut + s.alter > 0)) {
-    throw Error("grow + cut + alter must be > 0 where mutation is, got 0");
+  require_range("nudge", s.nudge, 0.0, kMost);
+  if (s.mutation > 0 && !(s.grow + s.cut + s.alter + s.nudge > 0)) {
+    throw Error("grow + cut + alter + nudge must be > 0 where mutation is, got 0");
   }
 }
 
@@ -69,6 +71,7 @@ void validate(const GaSettings& s) {
   require_range("mutation", s.mutation, 0.0, 1.0);
   require_shares(s);
   require_range("tournament_size", s.tournament_size, 1u, 10'000u);
+  require_range("restart_after", s.restart_after, 0u, 1'000'000'000u);
   require_range("retries", s.retries, 1u, 1000u);
   require_range("replace_probability", s.replace_probability, 0.0, 1.0);
 }
@@ -84,6 +87,12 @@ GaSettings ga_preset(std::string_view name) {
     // 2017, section 8: 40 % = 12.5 grow + 10 cut + 18 alter; printed shares sum to 40.5, so only their ratios are used.
     s.mutation = 0.4;
     s.grow = 12.5 / 40.5, s.cut = 10 / 40.5, s.alter = 18 / 40.5;
+    return s;
+  }
+  if (name == "ga-local") {
+    s.nudge = 1;  // beside grow 0.45, cut 0.45, alter 0.10: every other mutation is local
+    s.unique = true;
+    s.restart_after = 150;
     return s;
   }
   if (name == "ga-2016") return baseline_2016();

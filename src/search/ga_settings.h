@@ -26,7 +26,7 @@ struct GaSettings {
   std::uint32_t initial_length_min = 50;   // genes of a new individual, drawn uniformly from min..max
   std::uint32_t initial_length_max = 50;
   double mutation = 0.3;                   // chance that a pair is mutated; else it is crossed
-  double grow = 0.45, cut = 0.45, alter = 0.10;  // shares of the kinds of mutation; only their ratios matter
+  double grow = 0.45, cut = 0.45, alter = 0.10, nudge = 0;  // shares of the kinds of mutation; only ratios matter
   SelectionScheme first = SelectionScheme::tournament;  // of the first parent
   SelectionScheme second = SelectionScheme::roulette;   // of the second
   std::uint32_t tournament_size = 10;      // k, 1..10000
@@ -35,6 +35,8 @@ struct GaSettings {
   double replace_probability = 1;          // by symbol only: see CrossoverSettings
   GeneLimits genes;
   bool reuse_scores = false;               // a child equal to a parent generation's member gets its score unscored
+  std::uint32_t restart_after = 0;         // generations without a better individual before a new population; 0 = never
+  bool unique = false;                     // a child equal to a member of its own generation is redrawn
 
   bool operator==(const GaSettings&) const = default;
 };

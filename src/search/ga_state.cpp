@@ -14,16 +14,16 @@ namespace espalier {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x0a41'4750'5345ull;  // the bytes "ESPGA\n"
-constexpr std::uint64_t kStateVersion = 1;
+constexpr std::uint64_t kStateVersion = 2;
 
 // Everything that must be equal for a continued search to be the same search.
 std::string fingerprint(const SearchProblem& problem, const GaSettings& s) {
   return fmt::format("ga {} seed {} lane {} P {} E {} L {}..{} mutation {} {} {} {} select {} {} {} cross {} {} {} genes "
-                     "{}..{} reuse {} locks {}",
+                     "{}..{} reuse {} nudge {} unique {} restart {} locks {}",
                      problem.graph->source_hash, problem.seed, problem.lane, s.population, s.elitism,
                      s.initial_length_min, s.initial_length_max, s.mutation, s.grow, s.cut, s.alter, name_of(s.first),
                      name_of(s.second), s.tournament_size, static_cast<int>(s.crossover), s.retries,
-                     s.replace_probability, s.genes.min, s.genes.max, s.reuse_scores, problem.locks.size());
+                     s.replace_probability, s.genes.min, s.genes.max, s.reuse_scores, s.nudge, s.unique, s.restart_after, problem.locks.size());
 }
 
 void write(StateWriter& writer, const Individual& individual) {
@@ -53,6 +53,10 @@ void GaEngine::save(std::ostream& out) const {
   writer.u64(evaluations_);
   const std::vector<NamedCount> counts = named(counts_);
   for (const NamedCount& count : counts) writer.u64(count.value);
+  writer.u64(epoch_);
+  writer.u64(stalled_);
+  writer.u64(champions_.size());
+  for (const Individual& champion : champions_) write(writer, champion);
   writer.u64(population_.size());
   if (!population_.empty()) write(writer, best_);
   for (const Individual& individual : population_) write(writer, individual);
@@ -71,6 +75,12 @@ void GaEngine::load(std::istream& in) {
   const std::uint64_t steps = reader.u64(), evaluations = reader.u64();
   std::vector<std::uint64_t> counts(named(counts_).size());
   for (std::uint64_t& count : counts) count = reader.u64();
+  const std::uint64_t epoch = reader.u64(), stalled = reader.u64(), champion_count = reader.u64();
+  if (champion_count > kReunion) {
+    throw Error(fmt::format("saved state: champions must be at most {}, got {}", kReunion, champion_count));
+  }
+  std::vector<Individual> champions;
+  for (std::uint64_t i = 0; i < champion_count; ++i) champions.push_back(read(reader, *problem_.graph));
   const std::uint64_t size = reader.u64();
   if (size != (steps > 0 ? settings_.population : 0)) {
     throw Error(fmt::format("saved state: population must be {}, got {}", steps > 0 ? settings_.population : 0, size));
@@ -81,6 +91,9 @@ void GaEngine::load(std::istream& in) {
   for (std::uint64_t i = 0; i < size; ++i) population.push_back(read(reader, *problem_.graph));
 
   steps_ = steps;
+  epoch_ = static_cast<std::uint32_t>(epoch);
+  stalled_ = stalled;
+  champions_ = std::move(champions);
   evaluations_ = evaluations;
   counts_ = counts_from(counts);
   best_ = std::move(best);

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "derivation/moves.h"
+#include "derivation/nudge.h"
 
 namespace espalier {
 namespace {
@@ -17,9 +18,12 @@ constexpr Entry kEntries[] = {
     {"grown", &GaCounts::grown},
     {"cut", &GaCounts::cut},
     {"altered", &GaCounts::altered},
+    {"nudged", &GaCounts::nudged},
     {"mutation fallbacks", &GaCounts::mutation_fallbacks},
     {"failed mutations", &GaCounts::failed_mutations},
     {"redrawn children", &GaCounts::redrawn_children},
+    {"redrawn twins", &GaCounts::redrawn_twins},
+    {"restarts", &GaCounts::restarts},
     {"kept parents", &GaCounts::kept_parents},
     {"reused scores", &GaCounts::reused_scores},
     {"short starts", &GaCounts::short_starts},
@@ -66,7 +70,7 @@ void GaVariation::mutate(const Individual& parent, RandomStream& random, Child& 
   child.scored = false;
   const Kind drawn = draw_kind(random);
   if (apply(drawn, child.individual.derivation, random, counts)) return;
-  for (const Kind other : {Kind::grow, Kind::cut, Kind::alter}) {
+  for (const Kind other : {Kind::grow, Kind::cut, Kind::alter, Kind::nudge}) {
     if (other == drawn || !(share(other) > 0)) continue;
     if (!apply(other, child.individual.derivation, random, counts)) continue;
     ++counts.mutation_fallbacks;
@@ -77,12 +81,15 @@ void GaVariation::mutate(const Individual& parent, RandomStream& random, Child& 
 }
 
 GaVariation::Kind GaVariation::draw_kind(RandomStream& random) const {
-  const double ball = random.next_unit() * (settings_.grow + settings_.cut + settings_.alter);
-  if (ball < settings_.grow) return Kind::grow;
-  if (ball < settings_.grow + settings_.cut) return Kind::cut;
-  // Rounding may carry the ball onto the end of a wheel without an alter sector.
-  if (settings_.alter > 0) return Kind::alter;
-  return settings_.cut > 0 ? Kind::cut : Kind::grow;
+  double ball = random.next_unit() * (settings_.grow + settings_.cut + settings_.alter + settings_.nudge);
+  Kind last = Kind::grow;
+  for (const Kind kind : {Kind::grow, Kind::cut, Kind::alter, Kind::nudge}) {
+    if (!(share(kind) > 0)) continue;
+    if (ball < share(kind)) return kind;
+    ball -= share(kind);
+    last = kind;
+  }
+  return last;  // rounding carried the ball past the wheel's end
 }
 
 double GaVariation::share(Kind kind) const {
@@ -90,6 +97,7 @@ double GaVariation::share(Kind kind) const {
     case Kind::grow: return settings_.grow;
     case Kind::cut: return settings_.cut;
     case Kind::alter: return settings_.alter;
+    case Kind::nudge: return settings_.nudge;
   }
   CHECK(false);
 }
@@ -103,6 +111,7 @@ bool GaVariation::apply(Kind kind, Derivation& derivation, RandomStream& random,
     case Kind::grow: return tallied(grow(graph_, derivation, locks_, random), counts.grown);
     case Kind::cut: return tallied(cut(graph_, derivation, locks_, random), counts.cut);
     case Kind::alter: return tallied(alter(graph_, derivation, locks_, random), counts.altered);
+    case Kind::nudge: return tallied(nudge(graph_, derivation, locks_, random), counts.nudged);
   }
   CHECK(false);
 }

@@ -16,10 +16,12 @@ struct GaCounts {
   std::uint64_t crossed_pairs = 0;
   std::uint64_t crossover_tries = 0;
   std::uint64_t failed_crossovers = 0;  // no compatible subtrees in any try: the children are copies
-  std::uint64_t grown = 0, cut = 0, altered = 0;
+  std::uint64_t grown = 0, cut = 0, altered = 0, nudged = 0;
   std::uint64_t mutation_fallbacks = 0;  // the drawn kind did not exist, another did
   std::uint64_t failed_mutations = 0;    // no kind existed: the child is a copy
   std::uint64_t redrawn_children = 0;    // outside the gene limits
+  std::uint64_t redrawn_twins = 0;       // equal to a member of their own generation
+  std::uint64_t restarts = 0;            // populations begun anew
   std::uint64_t kept_parents = 0;        // redrawn in vain: a parent stands in
   std::uint64_t reused_scores = 0;       // individuals whose score was known, elites aside
   std::uint64_t short_starts = 0;        // initial individuals that could not grow to their length
@@ -48,7 +50,7 @@ class GaVariation {
             GaCounts& counts) const;
 
  private:
-  enum class Kind : std::uint8_t { grow, cut, alter };
+  enum class Kind : std::uint8_t { grow, cut, alter, nudge };
 
   void mutate(const Individual& parent, RandomStream& random, Child& child, GaCounts& counts) const;
   Kind draw_kind(RandomStream& random) const;

@@ -73,6 +73,13 @@ TEST(ReadProvenance, StlHoldsVersionAndHash) {
   EXPECT_EQ(read_provenance(folder / "a.stl"), expected);
 }
 
+TEST(ReadProvenance, TakesNoOtherTextForAnStl) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "notes.txt";
+  write_file(path, "espalier = 1  # begins like the header of an STL of ours, and is long enough to hold one too\n");
+  EXPECT_THROW(read_provenance(path), Error);
+}
+
 TEST(ReadProvenance, SurvivesWindowsLineEnds) {
   const TemporaryFolder folder;
   write_file(folder / "a.obj", "# hello\r\n# espalier: " + to_json(test_provenance()) + "\r\nv 0 0 0\r\n");
