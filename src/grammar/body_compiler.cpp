@@ -43,6 +43,7 @@ Program BodyCompiler::compile(Variant* variant) {
   bind_parameters(scope);
   statements(decl_.body, scope, true);
   builder_.emit(OpCode::end);
+  mark_last_slots(builder_.program);
   if (builder_.overflow())
     tables_.diagnostics.error(
         "E0903", decl_.name_span,

@@ -61,7 +61,10 @@ void BodyCompiler::unrolled(const ast::Stmt& stmt, const std::vector<Value>& val
     inner.bind(stmt.name, values[i]);
     turns_.push_back(static_cast<int>(i));
     if (is_rule()) {
+      const ast::Stmt* sole = sole_spawn(stmt.blocks[0], 0);
+      const std::uint32_t jump = sole ? builder_.jump(OpCode::jump_unless_used, {}, slot_of(*sole)) : 0;
       block(stmt.blocks[0], inner, false);
+      if (sole) builder_.land(jump);
     } else {
       // Draws of details are told apart by the key, so each turn has its own.
       const std::uint32_t slot = builder_.enter_save();

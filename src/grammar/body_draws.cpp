@@ -95,7 +95,8 @@ Value BodyCompiler::draw_vector(const Value& low, const Value& high, const std::
   Operand* const operands[] = {&op.x, &op.y, &op.z};
   Value value{Kind::vector, {}, {}};
   for (int i = 0; i < 3; ++i) {
-    *operands[i] = {high.parts[i].bias - low.parts[i].bias, low.parts[i].bias, kZeroRegister};
+    // The power of two that makes u of 24 bits of quantile is folded in; that is exact.
+    *operands[i] = {(high.parts[i].bias - low.parts[i].bias) * 0x1p-24f, low.parts[i].bias, kZeroRegister};
     value.parts[i] = register_operand(static_cast<Register>(dst + i));
   }
   if (is_rule() && !finding_shape()) op.a = variant_draws_.at(draw_site_);

@@ -11,6 +11,15 @@ bool constant(const Value& vector, int axis, float value) {
   return vector.parts[axis].coefficient == 0 && vector.parts[axis].bias == value;
 }
 
+/// The plain contents of three registers in a row, as a draw of a vector leaves them.
+bool is_run(const Value& vector) {
+  for (int i = 0; i < 3; ++i) {
+    const Operand& part = vector.parts[i];
+    if (part.coefficient != 1 || part.bias != 0 || part.reg != vector.parts[0].reg + i) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void BodyCompiler::move_along(int axis, const Operand& distance) {
@@ -35,6 +44,10 @@ void BodyCompiler::resize(const ast::Stmt& stmt, const NameScope& scope, OpCode 
     return;
   }
   const Value size = expressions_.compile_vector(*stmt.exprs[0], scope);
+  if (all == OpCode::resize && is_run(size)) {
+    builder_.emit(OpCode::resize_run).a = size.parts[0].reg;
+    return;
+  }
   Op& op = builder_.emit(all);
   op.x = size.parts[0], op.y = size.parts[1], op.z = size.parts[2];
 }

@@ -60,17 +60,18 @@ enum class OpCode : std::uint8_t {
   size,         // scope = (x, y, z)
   resize_axis,  // scope[axis] *= x
   resize,       // scope *= (x, y, z)
+  resize_run,   // scope *= registers a..a+2
   save,         // frame, scope, paint, bone and key to save slot a
   restore,      // from save slot a
   // Output
   emit,    // mesh x, top y; flags kEmitAsIs, kEmitProxy
   bone,    // from registers a.. to registers b..
   paint,   // material x
-  slot,    // slot a of the variant, with slot code dst; b names it in detail keys
+  slot,    // slot a of the variant, with slot code dst; b names it in detail keys; flags kLast: the program ends here
   detail,  // call site a
   // Draws: quantile a of the gene, or in details the one keyed by b
   draw_uniform,     // dst = x + (y - x) u
-  draw_uniform3,    // dst.. = bias + coefficient * u of x, y, z: three quantiles, constant ranges
+  draw_uniform3,    // dst.. = bias + coefficient * (quantile / 256) of x, y, z: three quantiles, constant ranges
   draw_normal,      // mean x, sd y, low z, high in dst
   draw_loguniform,  // x (y / x)^u
   draw_integer,     // x + floor((y - x + 1) u)
@@ -93,7 +94,7 @@ enum class OpCode : std::uint8_t {
 /// A loop of a detail or an `around` ends after this many turns, whatever its bounds say.
 inline constexpr int kMostTurns = 1024;
 
-inline constexpr std::uint8_t kEmitAsIs = 1, kEmitProxy = 2, kAimAt = 1;
+inline constexpr std::uint8_t kEmitAsIs = 1, kEmitProxy = 2, kAimAt = 1, kLast = 1;
 
 struct Op {
   OpCode code = OpCode::end;

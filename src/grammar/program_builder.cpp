@@ -124,13 +124,19 @@ void relocate(Register& reg, Register local_base) {
 
 }  // namespace
 
+void mark_last_slots(Program& program) {
+  for (std::size_t i = 0; i + 1 < program.ops.size(); ++i) {
+    if (program.ops[i].code == OpCode::slot && program.ops[i + 1].code == OpCode::end) program.ops[i].flags = kLast;
+  }
+}
+
 void relocate(Program& program, Register local_base) {
   for (Op& op : program.ops) {
     if (op.code != OpCode::slot) relocate(op.dst, local_base);
     relocate(op.x.reg, local_base);
     relocate(op.y.reg, local_base);
     relocate(op.z.reg, local_base);
-    if (op.code == OpCode::turn || op.code == OpCode::aim || op.code == OpCode::bone) relocate(op.a, local_base);
+    if (op.code == OpCode::turn || op.code == OpCode::resize_run || op.code == OpCode::aim || op.code == OpCode::bone) relocate(op.a, local_base);
     if (op.code == OpCode::bone) {
       auto to = static_cast<Register>(op.b);
       relocate(to, local_base);

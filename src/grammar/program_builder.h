@@ -49,6 +49,9 @@ class ProgramBuilder {
   bool overflow_ = false;
 };
 
+/// Marks the slots that a program ends with: their children may take over where the gene leaves off.
+void mark_last_slots(Program& program);
+
 /// Replaces tagged local registers by `local_base + index`.
 void relocate(Program& program, Register local_base);
 

@@ -86,19 +86,20 @@ void Machine::place_children(const Derivation& derivation) {
 }
 
 void Machine::run_gene(const Derivation& derivation) {
-  code_ = &code_of(derivation.genes[current_.at.gene]);
-  draws_ = derivation.draws.data() + current_.at.draw;
-  place_children(derivation);
-  run<true>(*code_->program, &derivation);
+  do {
+    code_ = &code_of(derivation.genes[current_.at.gene]);
+    draws_ = derivation.draws.data() + current_.at.draw;
+    place_children(derivation);
+  } while (run<true>(*code_->program, &derivation));
 }
 
 void Machine::run_detail() { run<false>(graph_.details[current_.program], nullptr); }
 
 template <bool kGene>
-float Machine::quantile(const Op& op, std::uint32_t component) const {
+float Machine::high_bits(const Op& op, std::uint32_t component) const {
   const std::uint32_t q = kGene ? draws_[op.a + component]
                                 : static_cast<std::uint32_t>(key_below(current_.state.key, op.b + component) >> 32);
-  return static_cast<float>(static_cast<std::int32_t>(q >> 8)) * 0x1.0p-24f;
+  return static_cast<float>(static_cast<std::int32_t>(q >> 8));
 }
 
 float Machine::draw_normal(const Op& op, float u) const {
@@ -248,15 +249,28 @@ void Machine::run_slot(const Program& program, const Op& op, const Derivation& d
   for (const Operand& arg : code.args) *floats++ = value(arg);
 }
 
+// A gene that ends with a slot hands its state to the child there: nothing is queued, nothing copied.
+void Machine::enter_child(const SlotCode& code, const Op& op) {
+  if (graph_.uses_details) current_.state.key = key_below(current_.state.key, op.b);
+  current_.at = child_at_[op.a];
+  ++current_.depth;
+  registers_[kDepthRegister] = static_cast<float>(current_.depth);
+  if (code_->counted >= 0) registers_[kFirstDepthOfRegister + static_cast<std::uint32_t>(code_->counted)] += 1;
+  if (code.args.empty()) return;
+  arguments_.clear();
+  for (const Operand& arg : code.args) arguments_.push_back(value(arg));  // all before any is overwritten
+  std::copy(arguments_.begin(), arguments_.end(), registers_ + graph_.registers.local_base);
+}
+
 // Longer than other functions by design: one place where every operation is told.
 template <bool kGene>
-void Machine::run(const Program& program, const Derivation* derivation) {
+bool Machine::run(const Program& program, const Derivation* derivation) {
   State& state = current_.state;
   const Op* const ops = program.ops.data();
   for (const Op* next = ops;;) {
     const Op& op = *next++;
     switch (op.code) {
-      case OpCode::end: return;
+      case OpCode::end: return false;
       case OpCode::move_axis: state.origin += value(op.x) * state.axis[op.axis]; break;
       case OpCode::move:
         state.origin += value(op.x) * state.axis[0] + value(op.y) * state.axis[1] + value(op.z) * state.axis[2];
@@ -282,6 +296,9 @@ void Machine::run(const Program& program, const Derivation* derivation) {
         set_scope(0, registers_[0] * x), set_scope(1, registers_[1] * y), set_scope(2, registers_[2] * z);
         break;
       }
+      case OpCode::resize_run:
+        for (int i = 0; i < 3; ++i) set_scope(i, registers_[i] * registers_[op.a + i]);
+        break;
       case OpCode::save:
         state.scope = lanes_at(kScopeRegister);
         saved_[op.a] = state;
@@ -293,7 +310,13 @@ void Machine::run(const Program& program, const Derivation* derivation) {
       case OpCode::emit: emit(op, kGene ? Layer::rule : Layer::detail); break;
       case OpCode::bone: make_bone(op); break;
       case OpCode::paint: state.material = value(op.x); break;
-      case OpCode::slot: run_slot(program, op, *derivation); break;
+      case OpCode::slot:
+        if (op.flags & kLast && derivation->slots[current_.at.slot + op.a] == SlotState::filled && !broken_scope()) {
+          enter_child(program.slots[op.dst], op);
+          return true;
+        }
+        run_slot(program, op, *derivation);
+        break;
       case OpCode::detail: call(program, op.a); break;
       case OpCode::draw_uniform: {
         const float low = value(op.x);
@@ -301,9 +324,9 @@ void Machine::run(const Program& program, const Derivation* derivation) {
         break;
       }
       case OpCode::draw_uniform3:
-        registers_[op.dst] = op.x.bias + op.x.coefficient * quantile<kGene>(op, 0);
-        registers_[op.dst + 1] = op.y.bias + op.y.coefficient * quantile<kGene>(op, 1);
-        registers_[op.dst + 2] = op.z.bias + op.z.coefficient * quantile<kGene>(op, 2);
+        registers_[op.dst] = op.x.bias + op.x.coefficient * high_bits<kGene>(op, 0);
+        registers_[op.dst + 1] = op.y.bias + op.y.coefficient * high_bits<kGene>(op, 1);
+        registers_[op.dst + 2] = op.z.bias + op.z.coefficient * high_bits<kGene>(op, 2);
         break;
       case OpCode::draw_normal: registers_[op.dst] = draw_normal(op, quantile<kGene>(op, 0)); break;
       case OpCode::draw_loguniform: {

@@ -40,10 +40,16 @@ class Machine {
   std::uint32_t turns_left = 0;  // turns of loops, likewise
 
  private:
+  /// True when a child took the gene's place: it is current now, and wants to be run.
   template <bool kGene>
-  void run(const Program& program, const Derivation* derivation);
+  bool run(const Program& program, const Derivation* derivation);
+  /// A quantile's upper 24 bits as a float.
   template <bool kGene>
-  float quantile(const Op& op, std::uint32_t component) const;
+  float high_bits(const Op& op, std::uint32_t component) const;
+  template <bool kGene>
+  float quantile(const Op& op, std::uint32_t component) const {
+    return high_bits<kGene>(op, component) * 0x1p-24f;
+  }
 
   float value(const Operand& o) const { return o.coefficient * registers_[o.reg] + o.bias; }
   Vec3 vector_at(std::uint32_t reg) const {
@@ -61,9 +67,10 @@ class Machine {
   void turn_axis(int axis, float angle);
   void turn(const Op& op);
   void aim(const Op& op);
-  void emit(const Op& op, Layer layer);
+  [[gnu::always_inline]] inline void emit(const Op& op, Layer layer);
   void make_bone(const Op& op);
   void run_slot(const Program& program, const Op& op, const Derivation& derivation);
+  void enter_child(const SlotCode& code, const Op& op);
   void call(const Program& program, std::uint16_t call_site);
   bool spend_part();
   bool take_turn(float counter);
@@ -76,6 +83,7 @@ class Machine {
   std::vector<float> register_file_;
   float* registers_;
   std::vector<State> saved_;
+  std::vector<float> arguments_;
   // Of the item that runs; the scope's size lives in registers 0..2 meanwhile.
   Pending current_;
   const std::uint32_t* draws_ = nullptr;
