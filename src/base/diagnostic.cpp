@@ -65,7 +65,8 @@ std::string render(const Diagnostics& diagnostics, std::string_view file_name, s
     warnings += d.severity == Severity::warning;
   }
   const std::size_t errors = diagnostics.error_count();
-  if (errors > Diagnostics::kMostErrors) text += fmt::format("({} further errors not shown)\n", errors - Diagnostics::kMostErrors);
+  if (errors > Diagnostics::kMostErrors)
+    text += fmt::format("({} further errors not shown)\n", errors - Diagnostics::kMostErrors);
   if (errors + warnings > 0)
     text += fmt::format("{}: {} error{}, {} warning{}\n", file_name, errors, errors == 1 ? "" : "s", warnings,
                         warnings == 1 ? "" : "s");

@@ -1,6 +1,7 @@
 #pragma once
 // BodyCompiler: the statements of a rule (one variant at a time) or of a detail -> program.
 
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -72,6 +73,7 @@ class BodyCompiler {
   void condition(const ast::Stmt& stmt, const NameScope& scope, bool tail);
   void loop(const ast::Stmt& stmt, const NameScope& scope, bool tail);
   void unrolled(const ast::Stmt& stmt, const std::vector<Value>& values, const NameScope& scope, bool tail);
+  void counted(const Operand& count, const std::function<void(const Operand& counter)>& turn);
   void turning(const ast::Stmt& stmt, const Operand& first, const Operand& count, const NameScope& scope);
   void around(const ast::Stmt& stmt, const NameScope& scope);
   void mirror(const ast::Stmt& stmt, const NameScope& scope, bool tail);

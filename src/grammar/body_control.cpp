@@ -79,26 +79,17 @@ void BodyCompiler::unrolled(const ast::Stmt& stmt, const std::vector<Value>& val
   }
 }
 
-void BodyCompiler::turning(const ast::Stmt& stmt, const Operand& first_in, const Operand& count_in,
-                           const NameScope& scope) {
-  const Operand first = builder_.capture(first_in), count = builder_.capture(count_in);
+// A loop at run time: `turn` is compiled once, with the counter that runs from 0 to below `count`.
+void BodyCompiler::counted(const Operand& count, const std::function<void(const Operand& counter)>& turn) {
+  const Operand end = builder_.capture(count);
   const Register counter = builder_.new_local(1);
   builder_.load(counter, constant_operand(0));
-  const std::uint32_t test = builder_.jump(OpCode::loop_test, count);
+  const std::uint32_t test = builder_.jump(OpCode::loop_test, end);
   builder_.program.ops[test].dst = counter;
   const std::uint32_t slot = builder_.enter_save();
   builder_.count_save();
   builder_.emit(OpCode::save).a = static_cast<std::uint16_t>(slot);
-  builder_.emit(OpCode::key).x = register_operand(counter);
-  NameScope inner(&scope);
-  const Register variable = builder_.new_local(1);
-  Op& op = builder_.emit(OpCode::binary);
-  op.arithmetic = Arithmetic::add;
-  op.dst = variable;
-  op.x = first;
-  op.y = register_operand(counter);
-  inner.bind(stmt.name, {Kind::number, {register_operand(variable)}, {}});
-  block(stmt.blocks[0], inner, true);
+  turn(register_operand(counter));
   builder_.emit(OpCode::restore).a = static_cast<std::uint16_t>(slot);
   builder_.leave_save();
   builder_.load(counter, {1, 1, counter});
@@ -106,27 +97,34 @@ void BodyCompiler::turning(const ast::Stmt& stmt, const Operand& first_in, const
   builder_.land(test);
 }
 
+void BodyCompiler::turning(const ast::Stmt& stmt, const Operand& first_in, const Operand& count,
+                           const NameScope& scope) {
+  const Operand first = builder_.capture(first_in);
+  counted(count, [&](const Operand& counter) {
+    builder_.emit(OpCode::key).x = counter;
+    const Register variable = builder_.new_local(1);
+    Op& op = builder_.emit(OpCode::binary);
+    op.arithmetic = Arithmetic::add;
+    op.dst = variable;
+    op.x = first;
+    op.y = counter;
+    NameScope inner(&scope);
+    inner.bind(stmt.name, {Kind::number, {register_operand(variable)}, {}});
+    block(stmt.blocks[0], inner, true);
+  });
+}
+
 // B, turned by i * 360deg / n, i < n: copies that are equal in everything, so the key stays.
 void BodyCompiler::around(const ast::Stmt& stmt, const NameScope& scope) {
   const Operand wanted = builder_.unary(Arithmetic::round, expressions_.scalar(*stmt.exprs[0], scope));
   const Operand count =
       builder_.capture(builder_.ternary(Arithmetic::clamp, wanted, constant_operand(1), constant_operand(kMostTurns)));
-  const Register counter = builder_.new_local(1);
-  builder_.load(counter, constant_operand(0));
-  const std::uint32_t test = builder_.jump(OpCode::loop_test, count);
-  builder_.program.ops[test].dst = counter;
-  const std::uint32_t slot = builder_.enter_save();
-  builder_.count_save();
-  builder_.emit(OpCode::save).a = static_cast<std::uint16_t>(slot);
-  const Operand share = builder_.binary(Arithmetic::divide, register_operand(counter), count);
-  turn_about(static_cast<int>(*stmt.axis),
-             builder_.binary(Arithmetic::multiply, share, constant_operand(static_cast<float>(2 * kPi))));
-  block(stmt.blocks[0], scope, true);
-  builder_.emit(OpCode::restore).a = static_cast<std::uint16_t>(slot);
-  builder_.leave_save();
-  builder_.load(counter, {1, 1, counter});
-  builder_.emit(OpCode::jump).b = test;
-  builder_.land(test);
+  counted(count, [&](const Operand& counter) {
+    const Operand share = builder_.binary(Arithmetic::divide, counter, count);
+    turn_about(static_cast<int>(*stmt.axis),
+               builder_.binary(Arithmetic::multiply, share, constant_operand(static_cast<float>(2 * kPi))));
+    block(stmt.blocks[0], scope, true);
+  });
 }
 
 void BodyCompiler::mirror(const ast::Stmt& stmt, const NameScope& scope, bool tail) {

@@ -76,7 +76,8 @@ Value BodyCompiler::draw_value(const ast::Stmt& stmt, const NameScope& scope, co
   std::uint32_t values = 0;
   if (integer && args[0].constant() && args[1].constant())
     values = static_cast<std::uint32_t>(std::clamp(std::floor(args[1].number() - args[0].number()) + 1, 1.0f, 1e6f));
-  register_draw(draw_site_, name, value.width(), integer && values ? DrawShape::discrete : DrawShape::continuous, values);
+  const DrawShape shape = integer && values ? DrawShape::discrete : DrawShape::continuous;
+  register_draw(draw_site_, name, value.width(), shape, values);
   const bool fixed = args[0].constant() && args[1].constant();
   if (code == OpCode::draw_uniform && value.kind == Kind::vector && fixed) return draw_vector(args[0], args[1], name);
   for (int i = 0; i < value.width(); ++i) {

@@ -131,7 +131,8 @@ Value ExprCompiler::binary(const ast::Expr& expr, const NameScope& scope) {
   for (int i = 0; i < a.width(); ++i)
     value.parts[i] = builder_.binary(arithmetic_of(expr.op), a.parts[i], b.parts[i]);
   if (compares(expr.op)) value.kind = Kind::boolean;
-  else if (expr.op == ast::Operator::divide && a.kind == Kind::angle && b.kind == Kind::angle) value.kind = Kind::number;
+  else if (expr.op == ast::Operator::divide && a.kind == Kind::angle && b.kind == Kind::angle)
+    value.kind = Kind::number;
   else if (expr.op == ast::Operator::multiply && b.kind == Kind::angle) value.kind = Kind::angle;
   return value;
 }
@@ -173,7 +174,8 @@ Value ExprCompiler::vector_function(const std::string& name, const std::vector<V
     Value value{Kind::vector, {}, {}};
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
-      value.parts[i] = builder_.binary(Arithmetic::subtract, builder_.binary(Arithmetic::multiply, a.parts[j], b.parts[k]),
+      const Operand left = builder_.binary(Arithmetic::multiply, a.parts[j], b.parts[k]);
+      value.parts[i] = builder_.binary(Arithmetic::subtract, left,
                                        builder_.binary(Arithmetic::multiply, a.parts[k], b.parts[j]));
     }
     return value;
@@ -239,7 +241,8 @@ Value ExprCompiler::primitive(const ast::Expr& expr, const NameScope& scope) {
   Operand top = constant_operand(mesh.kind == MeshKind::cone ? 0.0f : 1.0f);
   int position = 0;
   for (const ast::Arg& arg : expr.args) {
-    const std::string label = arg.label ? arg.label->name : mesh.kind == MeshKind::cone && position == 0 ? "top" : "sides";
+    const char* const unlabelled = mesh.kind == MeshKind::cone && position == 0 ? "top" : "sides";
+    const std::string label = arg.label ? arg.label->name : unlabelled;
     ++position;
     const Value value = compile(*arg.value, scope);
     if (label == "top") top = value.parts[0];

@@ -51,7 +51,8 @@ std::uint16_t GraphTables::blend_index(std::uint16_t a, std::uint16_t b) {
     const float t = static_cast<float>(step) / kBlendSteps;
     const Material from = graph.materials[a], to = graph.materials[b];
     const auto blend = [t](float x, float y) { return x + (y - x) * t; };
-    graph.materials.push_back({fmt::format("{}-{}-{}", from.name, to.name, step), from.color + (to.color - from.color) * t,
+    graph.materials.push_back({fmt::format("{}-{}-{}", from.name, to.name, step),
+                               from.color + (to.color - from.color) * t,
                                blend(from.roughness, to.roughness), blend(from.metal, to.metal),
                                blend(from.opacity, to.opacity), blend(from.glow, to.glow)});
   }
