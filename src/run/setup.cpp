@@ -28,20 +28,27 @@ Mat3 rotation(int axis, float degrees) {
   return m;
 }
 
-std::unique_ptr<VolumeTarget> make_volume_target(const Setup& setup) {
+/// The scene's grid; where it gives none, the one around its targets becomes the scene's, and so part of its settings.
+const SceneGrid& settle_grid(Setup& setup) {
+  SceneVolume& volume = setup.scene.volume;
+  if (!volume.grid) {
+    const VoxelGrid grid = default_grid(setup.targets, volume.cells);
+    volume.grid = SceneGrid{grid.min, grid.max, {grid.cells[0], grid.cells[1], grid.cells[2]}};
+  }
+  return *volume.grid;
+}
+
+std::unique_ptr<VolumeTarget> make_volume_target(Setup& setup) {
+  const SceneGrid& grid = settle_grid(setup);
   const SceneVolume& volume = setup.scene.volume;
   VolumeSettings settings;
   for (std::size_t i = 0; i < setup.targets.size(); ++i) {
     const SceneMesh& mesh = volume.meshes[i];
     settings.meshes.push_back({fs::path(mesh.file).filename().string(), setup.targets[i], mesh.fill, mesh.spill});
   }
-  if (volume.grid) {
-    settings.grid.min = volume.grid->min;
-    settings.grid.max = volume.grid->max;
-    for (std::size_t i = 0; i < 3; ++i) settings.grid.cells[i] = volume.grid->cells[i];
-  } else {
-    settings.grid = default_grid(setup.targets, volume.cells);
-  }
+  settings.grid.min = grid.min;
+  settings.grid.max = grid.max;
+  for (std::size_t i = 0; i < 3; ++i) settings.grid.cells[i] = grid.cells[i];
   settings.form = volume.form;
   settings.view = volume.view;
   settings.overlap_count = volume.overlap;

@@ -42,6 +42,16 @@ std::vector<std::string> names_of(const InputFiles& inputs) {
   return names;
 }
 
+TEST(SetUp, TheGridAroundTheTargetsBecomesASetting) {
+  const TemporaryFolder folder;
+  write_pile(folder);
+  const auto setup = set_up_in(folder, {"volume.cells=5000"});
+  ASSERT_TRUE(setup->scene.volume.grid);
+  EXPECT_EQ(setup->scene.volume.grid->min, setup->volume->grid().min);
+  EXPECT_EQ(setup->scene.volume.grid->max, setup->volume->grid().max);
+  EXPECT_NE(to_toml(setup->scene).find("[volume.grid]"), std::string::npos);
+}
+
 TEST(PlaceMesh, ScalesThenTurnsThenMoves) {
   Mesh mesh;
   mesh.positions = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
