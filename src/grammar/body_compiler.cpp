@@ -66,19 +66,11 @@ void BodyCompiler::bind_parameters(NameScope& scope) {
 void BodyCompiler::block(const ast::Block& body, const NameScope& outer, bool tail) {
   NameScope scope(&outer);
   const bool saves = changes_state(body) && !tail;
-  std::uint32_t slot = 0;
-  if (saves) {
-    slot = builder_.enter_save();
-    builder_.count_save();
-    builder_.emit(OpCode::save).a = static_cast<std::uint16_t>(slot);
-  }
+  if (saves) builder_.save();
   ++nesting_;
   statements(body, scope, tail);
   --nesting_;
-  if (saves) {
-    builder_.emit(OpCode::restore).a = static_cast<std::uint16_t>(slot);
-    builder_.leave_save();
-  }
+  if (saves) builder_.restore();
 }
 
 void BodyCompiler::statements(const ast::Block& body, NameScope& scope, bool tail) {
@@ -137,7 +129,7 @@ void BodyCompiler::statement(const ast::Stmt& stmt, NameScope& scope, bool tail)
       return;
     }
     case ast::StmtKind::if_: return condition(stmt, scope, tail);
-    case ast::StmtKind::for_: return loop(stmt, scope, tail);
+    case ast::StmtKind::for_: return loop(stmt, scope);
     case ast::StmtKind::choose:
       return is_rule() ? choose(stmt, scope, tail) : choose_at_random(stmt, scope, tail);
     case ast::StmtKind::spawn: return spawn(stmt, scope);

@@ -24,7 +24,7 @@ struct RuleShape {
   RuleId id = 0;
   std::map<Site, std::uint16_t> draws;  // first component
   std::map<Site, std::uint16_t> slots;
-  std::map<Site, EdgeId> edges;         // turns empty unless the probability reads a loop variable
+  std::map<const ast::Stmt*, EdgeId> edges;
 };
 
 /// The choices of one variant, in the order in which they are met.
@@ -71,8 +71,8 @@ class BodyCompiler {
   void bind(const ast::Stmt& stmt, const Value& value, NameScope& scope);
 
   void condition(const ast::Stmt& stmt, const NameScope& scope, bool tail);
-  void loop(const ast::Stmt& stmt, const NameScope& scope, bool tail);
-  void unrolled(const ast::Stmt& stmt, const std::vector<Value>& values, const NameScope& scope, bool tail);
+  void loop(const ast::Stmt& stmt, const NameScope& scope);
+  void unrolled(const ast::Stmt& stmt, const std::vector<Value>& values, const NameScope& scope);
   void counted(const Operand& count, const std::function<void(const Operand& counter)>& turn);
   void turning(const ast::Stmt& stmt, const Operand& first, const Operand& count, const NameScope& scope);
   void around(const ast::Stmt& stmt, const NameScope& scope);

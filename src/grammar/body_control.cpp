@@ -9,19 +9,6 @@
 #include "grammar/depth_compiler.h"
 
 namespace espalier {
-namespace {
-
-bool reads(const ast::Expr& expr, const std::vector<std::string>& names) {
-  if (expr.kind == ast::ExprKind::name && std::find(names.begin(), names.end(), expr.name) != names.end()) return true;
-  for (const auto& child : expr.children)
-    if (reads(*child, names)) return true;
-  for (const auto& arg : expr.args)
-    if (reads(*arg.value, names)) return true;
-  return false;
-}
-
-}  // namespace
-
 void BodyCompiler::condition(const ast::Stmt& stmt, const NameScope& scope, bool tail) {
   const Operand test = expressions_.scalar(*stmt.exprs[0], scope);
   if (test.coefficient == 0) {
@@ -38,24 +25,24 @@ void BodyCompiler::condition(const ast::Stmt& stmt, const NameScope& scope, bool
   builder_.land(out);
 }
 
-void BodyCompiler::loop(const ast::Stmt& stmt, const NameScope& scope, bool tail) {
+void BodyCompiler::loop(const ast::Stmt& stmt, const NameScope& scope) {
   std::vector<Value> values;
   for (const auto& expr : stmt.list.values) values.push_back(expressions_.compile(*expr, scope));
-  if (!stmt.list.range) return unrolled(stmt, values, scope, tail);
+  if (!stmt.list.range) return unrolled(stmt, values, scope);
   const Operand first = values[0].parts[0], last = values[1].parts[0];
   if (first.coefficient == 0 && last.coefficient == 0) {
     const int count = static_cast<int>(std::clamp(std::floor(last.bias - first.bias) + 1, 0.0f, 1e5f));
     if (is_rule() || count <= 8) {
       values.clear();
       for (int i = 0; i < count; ++i) values.push_back(number_value(first.bias + static_cast<float>(i)));
-      return unrolled(stmt, values, scope, tail);
+      return unrolled(stmt, values, scope);
     }
   }
   turning(stmt, first, builder_.binary(Arithmetic::add, builder_.binary(Arithmetic::subtract, last, first),
                                        constant_operand(1)), scope);
 }
 
-void BodyCompiler::unrolled(const ast::Stmt& stmt, const std::vector<Value>& values, const NameScope& scope, bool) {
+void BodyCompiler::unrolled(const ast::Stmt& stmt, const std::vector<Value>& values, const NameScope& scope) {
   for (std::size_t i = 0; i < values.size() && !builder_.overflow(); ++i) {
     NameScope inner(&scope);
     inner.bind(stmt.name, values[i]);
@@ -67,13 +54,10 @@ void BodyCompiler::unrolled(const ast::Stmt& stmt, const std::vector<Value>& val
       if (sole) builder_.land(jump);
     } else {
       // Draws of details are told apart by the key, so each turn has its own.
-      const std::uint32_t slot = builder_.enter_save();
-      builder_.count_save();
-      builder_.emit(OpCode::save).a = static_cast<std::uint16_t>(slot);
+      builder_.save();
       builder_.emit(OpCode::key).x = constant_operand(static_cast<float>(i));
       block(stmt.blocks[0], inner, true);
-      builder_.emit(OpCode::restore).a = static_cast<std::uint16_t>(slot);
-      builder_.leave_save();
+      builder_.restore();
     }
     turns_.pop_back();
   }
@@ -86,12 +70,9 @@ void BodyCompiler::counted(const Operand& count, const std::function<void(const 
   builder_.load(counter, constant_operand(0));
   const std::uint32_t test = builder_.jump(OpCode::loop_test, end);
   builder_.program.ops[test].dst = counter;
-  const std::uint32_t slot = builder_.enter_save();
-  builder_.count_save();
-  builder_.emit(OpCode::save).a = static_cast<std::uint16_t>(slot);
+  builder_.save();
   turn(register_operand(counter));
-  builder_.emit(OpCode::restore).a = static_cast<std::uint16_t>(slot);
-  builder_.leave_save();
+  builder_.restore();
   builder_.load(counter, {1, 1, counter});
   builder_.emit(OpCode::jump).b = test;
   builder_.land(test);
@@ -131,17 +112,10 @@ void BodyCompiler::mirror(const ast::Stmt& stmt, const NameScope& scope, bool ta
   const ast::Stmt* sole = sole_spawn(stmt.blocks[0], 0);
   const std::uint32_t jump = sole ? builder_.jump(OpCode::jump_unless_used, {}, slot_of(*sole)) : 0;
   block(stmt.blocks[0], scope, false);
-  const std::uint32_t slot = tail ? 0 : builder_.enter_save();
-  if (!tail) {
-    builder_.count_save();
-    builder_.emit(OpCode::save).a = static_cast<std::uint16_t>(slot);
-  }
+  if (!tail) builder_.save();
   builder_.emit(OpCode::reflect).axis = static_cast<std::uint8_t>(*stmt.axis);
   block(stmt.blocks[0], scope, true);
-  if (!tail) {
-    builder_.emit(OpCode::restore).a = static_cast<std::uint16_t>(slot);
-    builder_.leave_save();
-  }
+  if (!tail) builder_.restore();
   if (sole) builder_.land(jump);
 }
 
@@ -193,14 +167,8 @@ void BodyCompiler::choose_at_random(const ast::Stmt& stmt, const NameScope& scop
 }
 
 EdgeId BodyCompiler::edge_of(const ast::Stmt& stmt, const NameScope& scope) {
-  // One edge per spawn of the text; a probability that differs from turn to turn makes an edge per turn.
-  std::vector<std::string> loop_variables;
-  for (const NameScope* s = &scope; s && s != &tables_.globals; s = s->outer())
-    for (const std::string& name : s->names()) loop_variables.push_back(name);
-  const bool per_turn = stmt.probability && reads(*stmt.probability, loop_variables);
-  const auto [it, fresh] =
-      shape_->edges.try_emplace({&stmt, per_turn ? turns_ : std::vector<int>{}},
-                                static_cast<EdgeId>(tables_.graph.edges.size()));
+  // One edge per spawn of the text, whatever loops stand around it: probabilities read no loop variable.
+  const auto [it, fresh] = shape_->edges.try_emplace(&stmt, static_cast<EdgeId>(tables_.graph.edges.size()));
   if (!fresh) return it->second;
   Edge edge;
   edge.parent = shape_->id;

@@ -15,8 +15,10 @@ constexpr std::size_t kMostVariants = 256;
 
 class GraphCompiler {
  public:
-  GraphCompiler(const CheckedGrammar& grammar, Diagnostics& diagnostics)
-      : grammar_(grammar), diagnostics_(diagnostics), tables_(grammar, graph_, diagnostics) {}
+  GraphCompiler(const CheckedGrammar& grammar, std::string source_hash, Diagnostics& diagnostics)
+      : grammar_(grammar), diagnostics_(diagnostics), tables_(grammar, graph_, diagnostics) {
+    graph_.source_hash = std::move(source_hash);
+  }
 
   std::shared_ptr<const GeneratorGraph> compile() {
     graph_.name = grammar_.ast.name;
@@ -187,12 +189,7 @@ CompileResult compile_grammar(const GrammarSource& source) {
   if (result.diagnostics.has_errors()) return result;
   const auto checked = check(std::move(ast), source.attributes, result.diagnostics);
   if (!checked || result.diagnostics.has_errors()) return result;
-  GraphCompiler compiler(*checked, result.diagnostics);
-  const auto graph = compiler.compile();
-  if (!graph) return result;
-  auto named = std::make_shared<GeneratorGraph>(*graph);
-  named->source_hash = hash_of(source);
-  result.graph = named;
+  result.graph = GraphCompiler(*checked, hash_of(source), result.diagnostics).compile();
   return result;
 }
 

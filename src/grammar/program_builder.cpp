@@ -1,5 +1,7 @@
 #include "grammar/program_builder.h"
 
+#include <algorithm>
+
 #include "grammar/arithmetic.h"
 
 namespace espalier {
@@ -42,6 +44,13 @@ std::uint32_t ProgramBuilder::jump(OpCode code, const Operand& condition, std::u
   op.a = slot;
   return here() - 1;
 }
+
+void ProgramBuilder::save() {
+  emit(OpCode::save).a = static_cast<std::uint16_t>(save_depth_++);
+  most_saves_ = std::max(most_saves_, save_depth_);
+}
+
+void ProgramBuilder::restore() { emit(OpCode::restore).a = static_cast<std::uint16_t>(--save_depth_); }
 
 void ProgramBuilder::load(Register dst, const Operand& operand) {
   Op& op = emit(OpCode::load);

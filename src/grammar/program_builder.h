@@ -32,13 +32,13 @@ class ProgramBuilder {
   std::uint32_t jump(OpCode code, const Operand& condition = {}, std::uint16_t slot = 0);
   void land(std::uint32_t jump_at) { program.ops[jump_at].b = here(); }
 
-  std::uint32_t enter_save() { return save_depth_++; }
-  void leave_save() { --save_depth_; }
+  /// Everything up to the matching restore() is undone there.
+  void save();
+  void restore();
 
   bool overflow() const { return overflow_; }
   std::uint32_t locals() const { return locals_; }
   std::uint32_t most_saves() const { return most_saves_; }
-  void count_save() { most_saves_ = std::max(most_saves_, save_depth_); }
 
   Program program;
 

@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "grammar/checked.h"
 #include "grammar/program.h"
@@ -42,12 +41,6 @@ class NameScope {
     for (const NameScope* scope = this; scope; scope = scope->outer_)
       if (const auto it = scope->names_.find(name); it != scope->names_.end()) return &it->second;
     return nullptr;
-  }
-  const NameScope* outer() const { return outer_; }
-  std::vector<std::string> names() const {
-    std::vector<std::string> all;
-    for (const auto& [name, value] : names_) all.push_back(name);
-    return all;
   }
 
  private:
