@@ -22,6 +22,7 @@ constexpr const char* kExamples = R"(Examples:
   espalier inspect out/ship/best.png
   espalier reproduce out/ship/best.glb
   espalier export out/ship/best.derivation.json -o ship.stl
+  espalier graph grammars/spaceship.esp -o spaceship.svg
 
 Exit codes: 0 done, 1 a comparison failed or there is no result, 2 bad input.)";
 
@@ -34,6 +35,7 @@ struct CommandLine {
   InspectOptions inspect;
   ReproduceOptions reproduce;
   ExportVerbOptions export_;
+  GraphOptions graph;
   std::function<int()> verb;
 };
 
@@ -125,6 +127,16 @@ void declare_file_verbs(CLI::App& app, CommandLine& line) {
   exporting->callback([&line] { line.verb = [&line] { return export_verb(line.export_); }; });
 }
 
+void declare_graph(CLI::App& app, CommandLine& line) {
+  CLI::App* verb = app.add_subcommand("graph", "Draw a grammar's generator graph, or a derivation's tree, as SVG");
+  GraphOptions& o = line.graph;
+  verb->add_option("file", o.file, "Grammar file (.esp) or .derivation.json")->required();
+  verb->add_option("--grammar", o.grammar, "Grammar of a derivation, if it is not in a run's folder");
+  declare_attributes(verb, o.attributes);
+  verb->add_option("-o,--out", o.out, "File to write: .svg (standard output)");
+  verb->callback([&line] { line.verb = [&line] { return graph_verb(line.graph); }; });
+}
+
 int main_verb(int argc, char** argv) {
   CLI::App app("Espalier: grammars that grow towards what you want.", "espalier");
   app.set_version_flag("--version", fmt::format("espalier {}", kVersion));
@@ -136,6 +148,7 @@ int main_verb(int argc, char** argv) {
   declare_run(app, line);
   declare_score(app, line);
   declare_file_verbs(app, line);
+  declare_graph(app, line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -59,4 +59,11 @@ struct ExportVerbOptions {
   std::vector<std::string> attributes;
 };
 
+struct GraphOptions {
+  std::string file;                     // a grammar, or a .derivation.json
+  std::string grammar;                  // of a derivation; empty: the copy in its run's folder
+  std::vector<std::string> attributes;
+  std::string out;                      // .svg; empty: standard output
+};
+
 }  // namespace espalier

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostDerivationBytes = 1ull << 30;
 
-Derivation load_derivation(const GeneratorGraph& graph, const std::string& path) {
+Derivation read_derivation(const GeneratorGraph& graph, const std::string& path) {
   try {
     return decode(graph, read_file(path, kMostDerivationBytes));
   } catch (const Error& error) {
@@ -75,9 +75,26 @@ Provenance export_provenance(const ExportRequest& request, const std::optional<P
 
 Explanation score_derivation(const Scene& scene, const std::string& derivation_path, MeshSource& source) {
   const std::unique_ptr<Setup> setup = set_up(scene, source);
-  const Derivation derivation = load_derivation(setup->graph(), derivation_path);
+  const Derivation derivation = read_derivation(setup->graph(), derivation_path);
   const std::unique_ptr<Executor> executor = make_serial_executor();
   return SceneScorer(setup->graph(), setup->objective, *executor).explain(derivation);
+}
+
+LoadedDerivation load_derivation(const std::string& path, const std::string& grammar,
+                                 const std::map<std::string, std::string>& attributes) {
+  LoadedDerivation loaded;
+  if (grammar.empty()) {
+    const std::optional<Provenance> provenance = provenance_of(path);
+    if (!provenance || provenance->settings.empty()) {
+      read_file(path, kMostDerivationBytes);  // a missing file is named as such
+      throw Error(fmt::format("{}: does not say which grammar it belongs to; name it with --grammar", path));
+    }
+    loaded.grammar = grammar_of(path, *provenance);
+  } else {
+    loaded.grammar = load_grammar(grammar, attributes);
+  }
+  loaded.derivation = read_derivation(*loaded.grammar.graph, path);
+  return loaded;
 }
 
 void export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor) {
@@ -85,14 +102,7 @@ void export_derivation(const ExportRequest& request, MeshSource& source, Executo
     throw Error(fmt::format("{}: export writes .glb, .obj, .ply or .stl", request.out));
   }
   const std::optional<Provenance> original = provenance_of(request.derivation);
-  if (request.grammar.empty() && (!original || original->settings.empty())) {
-    read_file(request.derivation, kMostDerivationBytes);  // a missing file is named as such
-    throw Error(
-        fmt::format("{}: does not say which grammar it belongs to; name it with --grammar", request.derivation));
-  }
-  const LoadedGrammar grammar = request.grammar.empty() ? grammar_of(request.derivation, *original)
-                                                        : load_grammar(request.grammar, request.attributes);
-  const Derivation derivation = load_derivation(*grammar.graph, request.derivation);
+  const auto [grammar, derivation] = load_derivation(request.derivation, request.grammar, request.attributes);
   const MeshTable meshes = load_meshes(grammar, source);
   const std::vector<Mesh> no_ghosts;
   ModelFiles files(*grammar.graph, meshes, no_ghosts, {1200, 900}, executor);

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "base/executor.h"
+#include "derivation/derivation.h"
 #include "model/mesh_source.h"
+#include "run/grammar_file.h"
 #include "run/scene.h"
 #include "score/target.h"
 
@@ -13,6 +15,15 @@ namespace espalier {
 
 /// The score of a derivation file in a scene, taken apart. Throws Error.
 Explanation score_derivation(const Scene& scene, const std::string& derivation_path, MeshSource& source);
+
+struct LoadedDerivation {
+  LoadedGrammar grammar;
+  Derivation derivation;
+};
+/// A derivation and its grammar: the file named by `grammar`, with `attributes`, or (where that is empty) the copy in the
+/// folder of the derivation's run. Throws Error.
+LoadedDerivation load_derivation(const std::string& path, const std::string& grammar,
+                                 const std::map<std::string, std::string>& attributes);
 
 struct ExportRequest {
   std::string derivation;                         // path of a .derivation.json

@@ -1,0 +1,40 @@
+#pragma once
+// GrammarOutline: what a grammar says in the words of its text: the draws of its rules, guards and probabilities as
+// they are written. For people; a GeneratorGraph holds only what they come to.
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grammar/kind.h"
+
+namespace espalier {
+
+struct DrawOutline {
+  std::string name;                       // "k"
+  std::string text;                       // "uniform(vec(0.6), vec(1.5))", in one line
+  std::string distribution;               // "uniform"
+  std::vector<std::string> alternatives;  // pick: as written, without weights
+  Kind kind = Kind::number;               // of its value
+};
+
+struct RuleOutline {
+  std::vector<std::string> parameters;
+  std::string guard;  // empty: none
+  std::vector<DrawOutline> draws;  // in text order, each statement once
+};
+
+struct GrammarOutline {
+  std::map<std::string, RuleOutline, std::less<>> rules;
+  /// Of the optional spawns, by where their statement begins (Edge::span).
+  std::map<std::uint32_t, std::string> probabilities;
+
+  /// The draw that a component of a rule ("Body.k.x", "Row.gap[2]") belongs to, or null.
+  const DrawOutline* find_draw(std::string_view rule, std::string_view component) const;
+};
+
+/// Of a text that parses; rules of other files, and a text that does not parse, are left out.
+GrammarOutline outline_of(std::string_view text);
+
+}  // namespace espalier
