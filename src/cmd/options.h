@@ -66,4 +66,12 @@ struct GraphOptions {
   std::string out;                      // .svg; empty: standard output
 };
 
+struct ExplainOptions {
+  std::string grammar;
+  std::vector<std::string> attributes;
+  std::uint32_t samples = 1000;
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
 }  // namespace espalier

@@ -35,6 +35,7 @@ class Outliner {
 
   GrammarOutline run(const ast::Grammar& grammar) {
     for (const ast::Decl& decl : grammar.decls) {
+      if (decl.kind == ast::DeclKind::attribute) add_attribute(decl);
       if (decl.kind != ast::DeclKind::rule) continue;
       RuleOutline& rule = outline_.rules[decl.name];
       for (const ast::Param& param : decl.params) rule.parameters.push_back(param.name);
@@ -54,6 +55,14 @@ class Outliner {
       for (const ast::Block& inner : stmt->blocks) walk(inner, rule);
       for (const ast::Case& one : stmt->cases) walk(one.block, rule);
     }
+  }
+
+  void add_attribute(const ast::Decl& decl) {
+    AttributeOutline& attribute = outline_.attributes[decl.name];
+    attribute.value = slice(text_, decl.value->span);
+    if (!decl.low) return;
+    attribute.range = slice(text_, decl.low->span) + ".." + slice(text_, decl.high->span);
+    if (decl.step) attribute.range += " by " + slice(text_, decl.step->span);
   }
 
   void add_draw(const ast::Stmt& stmt, RuleOutline& rule) {

@@ -25,8 +25,14 @@ struct RuleOutline {
   std::vector<DrawOutline> draws;  // in text order, each statement once
 };
 
+struct AttributeOutline {
+  std::string value;  // the default
+  std::string range;  // "1..3 by 0.5"; empty: none
+};
+
 struct GrammarOutline {
   std::map<std::string, RuleOutline, std::less<>> rules;
+  std::map<std::string, AttributeOutline, std::less<>> attributes;
   /// Of the optional spawns, by where their statement begins (Edge::span).
   std::map<std::uint32_t, std::string> probabilities;
 

@@ -133,7 +133,8 @@ class Collector {
     for (std::uint32_t d = 0; d < graph_.details.size(); ++d) scan(rules + d, graph_.details[d]);
     for (const auto& [ends, way] : ways) {
       std::string label = way.contains("") ? "" : fmt::format("{}", fmt::join(way, ", "));
-      const std::string hint = fmt::format("{} calls {}", nodes_[ends.first].heading, nodes_[ends.second].heading);
+      const std::string& caller = ends.first < rules ? graph_.rules[ends.first].name : nodes_[ends.first].heading;
+      const std::string hint = fmt::format("{} calls {}", caller, nodes_[ends.second].heading);
       add_arrow({ends.first, ends.second, label, hint, {"", kDetail, 1, kDetailDashes}, kQuiet});
     }
   }

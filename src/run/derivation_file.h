@@ -20,8 +20,8 @@ struct LoadedDerivation {
   LoadedGrammar grammar;
   Derivation derivation;
 };
-/// A derivation and its grammar: the file named by `grammar`, with `attributes`, or (where that is empty) the copy in the
-/// folder of the derivation's run. Throws Error.
+/// A derivation and its grammar: the file named by `grammar`, with `attributes`, or (where that is empty) the copy in
+/// the folder of the derivation's run. Throws Error.
 LoadedDerivation load_derivation(const std::string& path, const std::string& grammar,
                                  const std::map<std::string, std::string>& attributes);
 
