@@ -14,6 +14,12 @@ struct CheckOptions {
   bool json = false;
 };
 
+struct FormatOptions {
+  std::vector<std::string> files;  // "-" is standard input
+  bool check = false;              // list what would change, write nothing
+  bool to_stdout = false;
+};
+
 struct SampleOptions {
   std::string grammar;
   std::uint32_t count = 16;

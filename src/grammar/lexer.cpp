@@ -31,7 +31,8 @@ std::size_t utf8_length(std::string_view text) {
 
 class Lexer {
  public:
-  Lexer(std::string_view source, Diagnostics& diagnostics) : source_(source), diagnostics_(diagnostics) {
+  Lexer(std::string_view source, Diagnostics& diagnostics, std::vector<Comment>* comments)
+      : source_(source), diagnostics_(diagnostics), comments_(comments) {
     if (source_.starts_with("\xef\xbb\xbf")) line_start_ = at_ = 3;
   }
 
@@ -55,7 +56,7 @@ class Lexer {
   void skip_blanks() {
     for (; at_ < source_.size(); ++at_) {
       const char c = source_[at_];
-      if (c == '#') at_ = std::min(source_.find('\n', at_), source_.size());
+      if (c == '#') skip_comment();
       if (at_ == source_.size()) return;
       if (source_[at_] == '\n') {
         ++line_;
@@ -64,6 +65,17 @@ class Lexer {
         return;
       }
     }
+  }
+
+  void skip_comment() {
+    const std::size_t end = std::min(source_.find('\n', at_), source_.size());
+    if (comments_) {
+      std::string_view text = source_.substr(at_, end - at_);
+      while (text.find_last_of(" \t\r") == text.size() - 1) text.remove_suffix(1);
+      const bool own_line = tokens_.empty() || tokens_.back().span.line != line_;
+      comments_->push_back({text, span(at_, text.size()), own_line, tokens_.size()});
+    }
+    at_ = end;
   }
 
   void scan() {
@@ -194,6 +206,7 @@ class Lexer {
 
   std::string_view source_;
   Diagnostics& diagnostics_;
+  std::vector<Comment>* comments_;
   std::vector<Token> tokens_;
   std::size_t at_ = 0;
   std::uint32_t line_ = 1;
@@ -202,8 +215,8 @@ class Lexer {
 
 }  // namespace
 
-std::vector<Token> tokenize(std::string_view source, Diagnostics& diagnostics) {
-  return Lexer(source, diagnostics).run();
+std::vector<Token> tokenize(std::string_view source, Diagnostics& diagnostics, std::vector<Comment>* comments) {
+  return Lexer(source, diagnostics, comments).run();
 }
 
 std::string describe(const Token& token) {
