@@ -30,6 +30,7 @@ Exit codes: 0 done, 1 a comparison failed or there is no result, 2 bad input.)";
 struct CommandLine {
   CheckOptions check;
   FormatOptions format;
+  ImportOptions import_;
   SampleOptions sample;
   RunVerbOptions run;
   ScoreOptions score;
@@ -70,6 +71,15 @@ void declare_format(CLI::App& app, CommandLine& line) {
   verb->add_flag("--check", o.check, "Change nothing; list the files that would change and exit with 1");
   verb->add_flag("--stdout", o.to_stdout, "Write to stdout instead of the files");
   verb->callback([&line] { line.verb = [&line] { return format_verb(line.format); }; });
+}
+
+void declare_import(CLI::App& app, CommandLine& line) {
+  CLI::App* verb = app.add_subcommand("import", "Write an L-system as a grammar");
+  ImportOptions& o = line.import_;
+  verb->add_option("file", o.file, "L-system (.lsys), see docs/from-lsystems.md")->required();
+  verb->add_option("-o,--out", o.out, "Grammar to write (stdout)");
+  verb->add_option("--iterations", o.iterations, "Rewriting steps, instead of the file's")->check(CLI::Range(1, 40));
+  verb->callback([&line] { line.verb = [&line] { return import_verb(line.import_); }; });
 }
 
 void declare_sample(CLI::App& app, CommandLine& line) {
@@ -144,6 +154,7 @@ int main_verb(int argc, char** argv) {
   CommandLine line;
   declare_check(app, line);
   declare_format(app, line);
+  declare_import(app, line);
   declare_sample(app, line);
   declare_run(app, line);
   declare_score(app, line);

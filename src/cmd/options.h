@@ -20,6 +20,12 @@ struct FormatOptions {
   bool to_stdout = false;
 };
 
+struct ImportOptions {
+  std::string file;
+  std::string out;  // empty or "-": standard output
+  std::optional<int> iterations;
+};
+
 struct SampleOptions {
   std::string grammar;
   std::uint32_t count = 16;

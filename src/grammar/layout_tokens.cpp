@@ -55,12 +55,12 @@ bool is_whole(const Token& token) {
 /// How loosely an operator binds: lines break at the loosest. 0 for what is no operator.
 int looseness(const Token& token) {
   if (is_one_of(token, {",", "->"})) return 1;
-  if (token.is("?")) return 2;
-  if (token.is("or")) return 3;
-  if (token.is("and")) return 4;
-  if (is_one_of(token, {"<", "<=", ">", ">=", "==", "!="})) return 5;
-  if (is_one_of(token, {"+", "-"})) return 6;
-  if (is_one_of(token, {"*", "/", "mod"})) return 7;
+  if (token.is("?")) return 3;  // the colon of `? :` has 2
+  if (token.is("or")) return 4;
+  if (token.is("and")) return 5;
+  if (is_one_of(token, {"<", "<=", ">", ">=", "==", "!="})) return 6;
+  if (is_one_of(token, {"+", "-"})) return 7;
+  if (is_one_of(token, {"*", "/", "mod"})) return 8;
   return 0;
 }
 
