@@ -47,7 +47,8 @@ int import_verb(const ImportOptions& options) {
   const CompileResult compiled = compile_grammar({out, *text, {}});
   if (!compiled.diagnostics.items().empty())
     std::fputs(render(compiled.diagnostics, "the grammar made of " + options.file, *text).c_str(), stderr);
-  if (!compiled.graph) throw Error(fmt::format("{}: the grammar made of it goes beyond what a grammar can be", options.file));
+  if (!compiled.graph)
+    throw Error(fmt::format("{}: the grammar made of it goes beyond what a grammar can be", options.file));
   if (out == "-") {
     fmt::print("{}", *text);
   } else {

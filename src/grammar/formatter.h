@@ -1,7 +1,7 @@
 #pragma once
-// The formatter: a grammar's text in the layout of the house. It works from the syntax tree and changes white space alone:
-// every token keeps its spelling, every comment its place among them. Authors decide which statements share a line and
-// which blocks are open; the formatter indents, spaces, and breaks what is longer than kLongestLine.
+// The formatter: a grammar's text in the layout of the house. It works from the syntax tree and changes white space
+// alone: every token keeps its spelling, every comment its place among them. Authors decide which statements share a
+// line and which blocks are open; the formatter indents, spaces, and breaks what is longer than kLongestLine.
 
 #include <optional>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
-// The page that the formatter writes on: lines of code with comments at their ends. Comments that stood in one column in
-// the source, on lines that follow each other, stand in one column again.
+// The page that the formatter writes on: lines of code with comments at their ends. Comments that stood in one column
+// in the source, on lines that follow each other, stand in one column again.
 
 #include <string>
 #include <string_view>

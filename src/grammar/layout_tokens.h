@@ -1,6 +1,6 @@
 #pragma once
-// The tokens and comments of a grammar as the formatter sees them: how wide they are, what stands between two of them on
-// one line, where a line may break. Private to the formatter. Columns count code points.
+// The tokens and comments of a grammar as the formatter sees them: how wide they are, what stands between two of them
+// on one line, where a line may break. Private to the formatter. Columns count code points.
 
 #include <cstdint>
 #include <span>
@@ -27,7 +27,9 @@ class LayoutTokens {
   /// The index of the token that begins at a byte offset.
   std::size_t index_at(std::uint32_t offset) const;
   /// As written, quotes included.
-  std::string_view spelling(std::size_t i) const { return source_.substr(tokens_[i].span.offset, tokens_[i].span.length); }
+  std::string_view spelling(std::size_t i) const {
+    return source_.substr(tokens_[i].span.offset, tokens_[i].span.length);
+  }
   /// Blanks before token i where the token before it stands on the same line and belongs to the same statement.
   int gap(std::size_t i) const { return gaps_[i]; }
   /// Columns of tokens first..last-1 on one line.

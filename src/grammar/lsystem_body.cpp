@@ -171,7 +171,8 @@ std::size_t Writer::emit_turns(const Modules& modules, std::size_t at, Body& bod
   std::size_t last = at;
   for (std::size_t i = at; i < modules.size() && fits_turns(*modules[i], m.symbol[0]); last = i++)
     count += turn_of(modules[i]->symbol[0]).sign;
-  if (count == 1 || count == -1) add(body, fmt::format("{} {}{}", turn.statement, count < 0 ? "-" : "", use("turn_angle")));
+  if (count == 1 || count == -1)
+    add(body, fmt::format("{} {}{}", turn.statement, count < 0 ? "-" : "", use("turn_angle")));
   else if (count != 0) add(body, fmt::format("{} {} * {}", turn.statement, count, use("turn_angle")));
   return last;
 }
@@ -211,7 +212,9 @@ void Writer::emit_child(const Module& m, const Species& species, Body& body) {
 }
 
 std::string Writer::length_of(const Module& m, Body& body) {
-  const std::string base = m.args.empty() ? use("step") : steps_.find(m) ? factor(m.args[0], body) : spell_in(m.args[0], body);
+  const std::string base = m.args.empty()   ? use("step")
+                           : steps_.find(m) ? factor(m.args[0], body)
+                                            : spell_in(m.args[0], body);
   return named(grown(base, m, body), "len", body);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// A cursor over one statement of an L-system file, and the expressions and modules that it reads. Private to the parser.
+// A cursor over one statement of an L-system file, and the expressions and modules that it reads. Private to the
+// parser.
 
 #include <string>
 #include <string_view>

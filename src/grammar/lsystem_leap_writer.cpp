@@ -43,7 +43,8 @@ struct AxisAngle {
 
 AxisAngle axis_angle(const std::array<Vector, 3>& m) {  // m[column][row]
   const Vector twice_sine = {m[1][2] - m[2][1], m[2][0] - m[0][2], m[0][1] - m[1][0]};
-  const double s = std::sqrt(twice_sine[0] * twice_sine[0] + twice_sine[1] * twice_sine[1] + twice_sine[2] * twice_sine[2]) / 2;
+  const double s =
+      std::sqrt(twice_sine[0] * twice_sine[0] + twice_sine[1] * twice_sine[1] + twice_sine[2] * twice_sine[2]) / 2;
   const double c = (m[0][0] + m[1][1] + m[2][2] - 1) / 2;
   AxisAngle result;
   result.degrees = std::atan2(s, c) * 180 / std::numbers::pi;
@@ -60,7 +61,8 @@ AxisAngle axis_angle(const std::array<Vector, 3>& m) {  // m[column][row]
   return result;
 }
 
-/// Makes all turns go about one axis, of which no component is negative where it is one of ours; false where they do not.
+/// Makes all turns go about one axis, of which no component is negative where it is one of ours; false where they do
+/// not.
 bool align(std::vector<AxisAngle>& turns) {
   const AxisAngle* first = nullptr;
   for (AxisAngle& turn : turns) {

@@ -1,5 +1,5 @@
-// Where the turtle stands behind a module that is rewritten further: children get a copy of the frame and give none back,
-// so what follows them has to be told.
+// Where the turtle stands behind a module that is rewritten further: children get a copy of the frame and give none
+// back, so what follows them has to be told.
 
 #include <algorithm>
 #include <cmath>

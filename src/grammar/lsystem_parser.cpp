@@ -8,57 +8,10 @@
 #include <fmt/core.h>
 
 #include "grammar/lsystem_cursor.h"
+#include "grammar/lsystem_statements.h"
 
 namespace espalier::lsystem {
 namespace {
-
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
-/// Where a comment begins in a line, or its length: `#` and `//` with a blank or nothing before them, and for `//` also
-/// behind, because `//` is two rolls. `#define` is none.
-std::size_t comment_begin(std::string_view line) {
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (i > 0 && !is_blank(line[i - 1])) continue;
-    if (line[i] == '#' && line.substr(i, 8) != "#define ") return i;
-    if (line.substr(i, 2) == "//" && (i + 2 == line.size() || is_blank(line[i + 2]) || i == 0)) return i;
-  }
-  return line.size();
-}
-
-struct Statement {
-  std::string text;  // comments blanked out; may span lines
-  SourceSpan span;   // of its first byte
-};
-
-bool begins_statement(std::string_view line) {
-  return !is_blank(line[0]) || line.find("->") != std::string_view::npos || line.find('=') != std::string_view::npos;
-}
-
-/// A statement is a line, with the lines behind it that begin with a blank and hold no arrow.
-std::vector<Statement> statements(std::string_view source) {
-  std::vector<Statement> result;
-  std::uint32_t number = 0;
-  for (std::size_t begin = 0; begin < source.size();) {
-    const std::size_t end = std::min(source.find('\n', begin), source.size());
-    std::string line(source.substr(begin, end - begin));
-    ++number;
-    const std::size_t comment = comment_begin(line);
-    std::fill(line.begin() + static_cast<long>(comment), line.end(), ' ');
-    const std::size_t first = line.find_first_not_of(" \t\r");
-    if (first != std::string::npos) {
-      if (!result.empty() && !begins_statement(line)) {
-        Statement& last = result.back();  // the blanked lines between keep places right
-        last.text.resize(begin - last.span.offset - 1, '\n');
-        last.text += "\n" + line;
-      } else {
-        result.push_back({line.substr(first),
-                          {static_cast<std::uint32_t>(begin + first), 1, number, static_cast<std::uint32_t>(first + 1)}});
-      }
-    }
-    begin = end + 1;
-  }
-  return result;
-}
 
 class FileParser {
  public:
@@ -235,7 +188,8 @@ class FileParser {
       return cursor(s, begins[i], i + 1 < begins.size() ? begins[i + 1] - 1 : end);
     };
     if (begins.size() > 3) part(3).fail("L0101", part(3).here(), "a production is `name: A(l) : guard -> successor`");
-    const bool named = begins.size() == 3 || (begins.size() == 2 && is_name(left, begins[1]) && is_module(left.substr(begins[1])));
+    const bool named =
+        begins.size() == 3 || (begins.size() == 2 && is_name(left, begins[1]) && is_module(left.substr(begins[1])));
     Cursor at = part(named ? 1 : 0);
     result.span = at.here();
     result.symbol = at.symbol();
@@ -253,7 +207,8 @@ class FileParser {
 
   static bool is_name(std::string_view left, std::size_t end) {
     const std::string_view name = trimmed(left.substr(0, end - 1));
-    return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+    return !name.empty() &&
+           std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
   }
   /// Whether a part before the arrow is a predecessor (with a context or not) and no guard.
   static bool is_module(std::string_view part) {
@@ -261,7 +216,8 @@ class FileParser {
     if (part.empty() || std::string_view(".0123456789(*").find(part[0]) != std::string_view::npos) return false;
     const std::size_t open = part.find('('), close = open == 1 ? part.find(')') : 0;
     const std::string_view rest = close == std::string_view::npos ? "" : trimmed(part.substr(close + 1));
-    const bool digit = rest.size() > 1 && std::string_view(" .0123456789").find(trimmed(rest.substr(1))[0]) != rest.npos;
+    const bool digit =
+        rest.size() > 1 && std::string_view(" .0123456789").find(trimmed(rest.substr(1))[0]) != rest.npos;
     return rest.empty() || ((rest[0] == '<' || rest[0] == '>') && !digit);
   }
   /// Productions of one symbol share the names of their parameters: those of the first.

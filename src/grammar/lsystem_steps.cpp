@@ -71,7 +71,8 @@ void Steps::find_growth(Species& species) const {
     const auto at = [&](double x) { return evaluate(m.args[0], values(species, {x})); };
     const std::optional<double> zero = at(0), one = at(1), two = at(2), seven = at(7);
     if (!zero || !one || !two || !seven || *zero != 0) return;
-    if (std::abs(*two - 2 * *one) > 1e-12 * std::abs(*one) || std::abs(*seven - 7 * *one) > 1e-11 * std::abs(*one)) return;
+    if (std::abs(*two - 2 * *one) > 1e-12 * std::abs(*one) || std::abs(*seven - 7 * *one) > 1e-11 * std::abs(*one))
+      return;
     growth += *one;
   }
   if (growth > 0) species.growth = growth;

@@ -20,8 +20,8 @@ struct Species {
   std::string symbol;
   std::vector<std::string> params;
   std::vector<std::size_t> productions;  // into System::productions
-  /// The symbol only multiplies: `F -> FF`, `F(l) -> F(l * 1.1)`, `!(w) -> !(w * 0.7)`. What it does after n more steps is
-  /// what it does now, times growth^n.
+  /// The symbol only multiplies: `F -> FF`, `F(l) -> F(l * 1.1)`, `!(w) -> !(w * 0.7)`. What it does after n more steps
+  /// is what it does now, times growth^n.
   std::optional<double> growth;
   bool is_detail = false;                    // decides by parameters, or is reached from one that does
   std::vector<std::set<std::size_t>> applied;  // by step: productions that apply to its modules; all the same ones
@@ -45,8 +45,8 @@ class Steps {
   const std::vector<Species>& species() const { return species_; }
   /// Null where the module is no symbol that is rewritten.
   const Species* find(const Module& module) const;
-  /// Where modules of a species with `left` steps to go lead, divided by their first argument if `scaled`; nothing where
-  /// that differs between them.
+  /// Where modules of a species with `left` steps to go lead, divided by their first argument if `scaled`; nothing
+  /// where that differs between them.
   std::optional<Leap> leap(const Species& species, int left, bool scaled) const;
   bool draws(const Module& module) const { return system_.draw.find(module.symbol[0]) != std::string::npos; }
   bool moves(const Module& module) const { return system_.move.find(module.symbol[0]) != std::string::npos; }

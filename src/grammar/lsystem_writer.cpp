@@ -8,8 +8,8 @@
 namespace espalier::lsystem {
 namespace {
 
-/// A guard on depth from what has to hold at each step (1), must not (0), or does not matter (-1). A gene for a module of
-/// step k has depth k + 1. Empty where it always holds.
+/// A guard on depth from what has to hold at each step (1), must not (0), or does not matter (-1). A gene for a module
+/// of step k has depth k + 1. Empty where it always holds.
 std::string depth_condition(const std::vector<int>& wanted, const std::string& iterations) {
   const int last = static_cast<int>(wanted.size()) - 1;  // the step after all rewriting
   std::string text;
@@ -23,7 +23,8 @@ std::string depth_condition(const std::vector<int>& wanted, const std::string& i
     std::string run;
     if (begin > 0) run = begin == last ? "depth > " + iterations : fmt::format("depth > {}", begin);
     if (end < last)
-      run += (run.empty() ? "" : " and ") + (end == last - 1 ? "depth <= " + iterations : fmt::format("depth <= {}", end + 1));
+      run += (run.empty() ? "" : " and ") +
+             (end == last - 1 ? "depth <= " + iterations : fmt::format("depth <= {}", end + 1));
     if (run.empty()) return {};
     text += (text.empty() ? "" : " or ") + run;
   }
@@ -39,7 +40,8 @@ void Writer::fail(std::string code, const SourceSpan& span, std::string message,
 }
 
 std::string Writer::run() {
-  for (const char* name : {"iterations", "step", "turn_angle", "width", "thinner"}) settings_[name] = globals_.claim(name);
+  for (const char* name : {"iterations", "step", "turn_angle", "width", "thinner"})
+    settings_[name] = globals_.claim(name);
   const std::string start = globals_.claim("Start");
   for (const Constant& c : system_.constants) constants_[c.name] = globals_.claim(c.name);
   plan();

@@ -113,6 +113,8 @@ TEST(LSystemImport, PointsAtMistakes) {
   EXPECT_THAT(faults("axiom: F(sin(2))\n"), ElementsAre("L0104 1:10"));
   EXPECT_THAT(faults("axiom: F\nconst a = 1 / 0\n"), ElementsAre("L0102 2:7"));
   EXPECT_THAT(faults("axiom: F\nA -(0.5)-> F : 0.5\n"), ElementsAre("L0105 2:16"));
+  EXPECT_THAT(faults("axiom: F(1 < 2)\nA(l) : l -> F(2 * !l)\nA(l) : l > 0 && 1 -> F : l > 2\n"),
+              ElementsAre("L0108 1:10", "L0108 2:8", "L0108 2:19", "L0108 3:17", "L0108 3:26"));
   EXPECT_THAT(faults("axiom: F\niterations: 2.5\n"), ElementsAre("L0102 2:1"));
   EXPECT_THAT(faults("axiom: F\naxiom: F\n"), ElementsAre("L0106 2:1"));
   EXPECT_THAT(faults("axiom: F\nA -> F\n  [+F]\n  $\n"), ElementsAre("L0201 4:3"));
