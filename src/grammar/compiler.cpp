@@ -1,5 +1,7 @@
 #include "grammar/compiler.h"
 
+#include <algorithm>
+
 #include <fmt/core.h>
 
 #include "base/hash.h"
@@ -73,6 +75,7 @@ class GraphCompiler {
     const bool wanted = decl.kind == ast::DeclKind::constant || decl.kind == ast::DeclKind::mesh ||
                         decl.kind == ast::DeclKind::material;
     if (!wanted || tables_.globals.find(decl.name)) return;
+    if (decl.kind == ast::DeclKind::material && reads_globals(*decl.value)) return;  // written out where it is used
     bind_names_in(*decl.value);
     ProgramBuilder scratch;
     Value value = ExprCompiler(tables_, scratch).compile(*decl.value, tables_.globals);
@@ -84,6 +87,17 @@ class GraphCompiler {
     if (decl.kind == ast::DeclKind::material && value.constant())
       graph_.materials[static_cast<std::size_t>(value.number())].name = decl.name;
     tables_.globals.bind(decl.name, value);
+  }
+
+  /// Draws and lets of the start rule, through functions too.
+  bool reads_globals(const ast::Expr& expr) const {
+    if (expr.kind == ast::ExprKind::name && grammar_.global_kinds.contains(expr.name)) return true;
+    if (expr.kind == ast::ExprKind::call)
+      if (const ast::Decl* function = grammar_.find(expr.name, ast::DeclKind::function))
+        if (reads_globals(*function->value)) return true;
+    const auto reads = [&](const ast::ExprPtr& part) { return reads_globals(*part); };
+    return std::any_of(expr.children.begin(), expr.children.end(), reads) ||
+           std::any_of(expr.args.begin(), expr.args.end(), [&](const ast::Arg& arg) { return reads(arg.value); });
   }
 
   void bind_names_in(const ast::Expr& expr) {
