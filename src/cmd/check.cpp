@@ -49,7 +49,9 @@ int check_verb(const CheckOptions& options) {
   }
   if (!result.graph) return kBadInput;
   AssimpMeshSource source;
-  load_meshes({options.file, text, result.graph, {}}, source);
+  const LoadedGrammar grammar{options.file, text, result.graph, {}};
+  load_meshes(grammar, source);
+  load_textures(grammar);
   if (!options.json) print_summary(options.file, *result.graph);
   return kDone;
 }

@@ -85,12 +85,12 @@ int hex_digit(char c) {
   return -1;
 }
 
+}  // namespace
+
 float linear_light(int byte) {
   const float s = static_cast<float>(byte) / 255;
   return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
 }
-
-}  // namespace
 
 TextureKind texture_named(std::string_view builtin) {
   for (std::size_t i = 1; i < std::size(kTextures); ++i)

@@ -43,6 +43,8 @@ std::span<const SurfaceArgument> texture_numbers(TextureKind kind);
 /// A texture of that kind with every argument left out.
 TextureRef default_texture(TextureKind kind);
 
+/// Linear light of an sRGB byte.
+float linear_light(int byte);
 /// "#rrggbb" to linear light; nothing when it is not that.
 std::optional<Vec3> parse_color(std::string_view text);
 

@@ -48,8 +48,8 @@ class LeafShape {
   bool inside(float u, float v) const {
     const float x = u - 0.5f, t = (v - kBladeFrom) / (kBladeTo - kBladeFrom);
     if (std::abs(x) < half_width(t, x)) return true;
-    // The stem, wider at its foot.
-    return v < kBladeFrom + 0.05f && std::abs(x) < 0.009f + 0.008f * (1 - v / kBladeFrom);
+    // The stem, wider at its foot. It ends short of the edge, so that nothing shows up at the opposite one.
+    return v > 0.012f && v < kBladeFrom + 0.05f && std::abs(x) < 0.009f + 0.008f * (1 - v / kBladeFrom);
   }
 
   float veins() const { return veins_; }

@@ -95,7 +95,7 @@ void export_derivation(const ExportRequest& request, MeshSource& source, Executo
   const Derivation derivation = load_derivation(*grammar.graph, request.derivation);
   const MeshTable meshes = load_meshes(grammar, source);
   const std::vector<Mesh> no_ghosts;
-  ModelFiles files(*grammar.graph, meshes, no_ghosts, {1200, 900}, executor);
+  ModelFiles files(*grammar.graph, meshes, load_textures(grammar), no_ghosts, {1200, 900}, executor);
   files.write(derivation, request.out, export_provenance(request, original, grammar, derivation));
 }
 

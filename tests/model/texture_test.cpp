@@ -38,9 +38,11 @@ double difference(const Image& image, bool rows, std::uint32_t a, std::uint32_t 
 
 TEST(Texture, BytesAreTheSameEverywhere) {
   // Fixed hashes: whoever changes a texture changes what old models look like, and says so in the changelog.
+  const TextureRef leaf = with(TextureKind::leaf, {{"lobes", 0.5f}, {"wilt", 0.5f}});
+  const TextureRef noise = with(TextureKind::noise, {{"warp", 0.7f}, {"ridges", 0.5f}});
   EXPECT_EQ(hash_of(make_texture(default_texture(TextureKind::bark), 64)), "b26497273528cba73f24edaee5933b57");
-  EXPECT_EQ(hash_of(make_texture(with(TextureKind::leaf, {{"lobes", 0.5f}, {"wilt", 0.5f}}), 64)), "265912de184e212030a6390d47299aae");
-  EXPECT_EQ(hash_of(make_texture(with(TextureKind::noise, {{"warp", 0.7f}, {"ridges", 0.5f}}), 64)), "e5453818672f342587859f545538cbfa");
+  EXPECT_EQ(hash_of(make_texture(leaf, 64)), "d5f66d7f947c296979e27788afd89592");
+  EXPECT_EQ(hash_of(make_texture(noise, 64)), "e5453818672f342587859f545538cbfa");
 }
 
 TEST(Texture, BarkAndNoiseContinueOverTheirEdges) {
