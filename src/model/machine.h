@@ -38,6 +38,7 @@ class Machine {
   PendingQueue calls;     // first in, first out
   Model* model = nullptr;
   bool details_wanted = false;
+  bool materials_wanted = true;
   std::uint32_t parts_left = 0;  // emits and calls still allowed; at 0 the model is truncated
   std::uint32_t turns_left = 0;  // turns of loops, likewise
   std::unique_ptr<MaterialMaker> materials;  // apart: it is large, and few grammars need it

@@ -25,6 +25,10 @@ std::uint16_t MaterialMaker::number(std::uint16_t recipe, std::uint64_t steps, M
 void Machine::make_material(const Program& program, const Op& op) {
   const PaintSite& site = program.paints[op.a];
   const MaterialRecipe& recipe = graph_.recipes[site.recipe];
+  if (!materials_wanted) {
+    registers_[op.dst] = static_cast<float>(recipe.middle);
+    return;
+  }
   std::uint64_t steps = 0;
   for (std::size_t i = 0; i < site.args.size(); ++i) {
     const int step = recipe.slots[i].step_of(value(site.args[i]));

@@ -28,6 +28,7 @@ class Bark {
     const float up = std::max(2.0f, std::floor(across * (0.2f + 0.45f * cracks_) + 0.5f));
     plates_ = {static_cast<std::int32_t>(across), static_cast<std::int32_t>(up)};
     aspect_ = across / up;
+    waves_ *= std::min(1.0f, across / 8);  // wide plates would be folded over each other
     for (std::int32_t y = 0; y < plates_.y; ++y) {
       for (std::int32_t x = 0; x < plates_.x; ++x) points_.push_back(cell_point(x, y, plates_, 0.85f, seed_));
     }

@@ -79,6 +79,22 @@ rule A {
   EXPECT_EQ(model.instances.back().material, graph->recipes.back().middle);
 }
 
+TEST(MadeMaterials, AreLeftOutWhereNobodyLooks) {
+  const auto graph = compile(kChain);
+  RandomStream random({5, Purpose::test, 0, 3});
+  const Derivation derivation = sample(*graph, random, 10'000).derivation;
+  Model with, without;
+  Expander(*graph).expand(derivation, ExpandTo::full, with);
+  Expander(*graph, {.make_materials = false}).expand(derivation, ExpandTo::full, without);
+  EXPECT_TRUE(without.materials.empty());
+  EXPECT_EQ(without.plain_paints, 0u);
+  ASSERT_EQ(with.instances.size(), without.instances.size());
+  for (std::size_t i = 0; i < with.instances.size(); ++i) {
+    EXPECT_EQ(with.instances[i].model_from_mesh.origin, without.instances[i].model_from_mesh.origin);
+    EXPECT_LT(without.instances[i].material, graph->materials.size());
+  }
+}
+
 TEST(MadeMaterials, ComeFromDetailsToo) {
   const auto graph = compile(kChain);
   RandomStream random({5, Purpose::test, 0, 2});
