@@ -12,7 +12,8 @@
 namespace espalier {
 
 Machine::Machine(const GeneratorGraph& graph)
-    : graph_(graph),
+    : materials(std::make_unique<MaterialMaker>(graph)),
+      graph_(graph),
       counted_(static_cast<std::uint32_t>(graph.counted_rules.size())),
       parameters_(graph.registers.parameters),
       register_file_(graph.registers.count + 4),
@@ -278,6 +279,7 @@ bool Machine::run(const Program& program, const Derivation* derivation) {
         registers_[op.dst] = static_cast<float>(op.a) + std::floor(16 * t + 0.5f);
         break;
       }
+      case OpCode::make_material: make_material(program, op); break;
       case OpCode::jump: next = ops + op.b; break;
       case OpCode::jump_if_zero:
         if (value(op.x) == 0) next = ops + op.b;

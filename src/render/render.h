@@ -8,6 +8,7 @@
 
 #include "base/executor.h"
 #include "model/model.h"
+#include "model/surfaces.h"
 
 namespace espalier {
 
@@ -26,7 +27,7 @@ struct RenderSettings {
 
 /// A picture of the model; `ghosts` are meshes in model space drawn as translucent shells. Frames what it is given; an
 /// empty model gives an empty stage.
-Picture render(const Model& model, const MeshTable& meshes, const std::vector<Material>& materials,
+Picture render(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
                const std::vector<Mesh>& ghosts, const RenderSettings& settings, Executor& executor);
 
 struct SheetCell {

@@ -121,7 +121,7 @@ AdaptedGenes export_derivation(const ExportRequest& request, MeshSource& source,
       load_derivation(request.derivation, request.grammar, request.attributes);
   const MeshTable meshes = load_meshes(grammar, source);
   const std::vector<Mesh> no_ghosts;
-  ModelFiles files(*grammar.graph, meshes, no_ghosts, {1200, 900}, executor);
+  ModelFiles files(*grammar.graph, meshes, load_textures(grammar), no_ghosts, {1200, 900}, executor);
   files.write(derivation, request.out, export_provenance(request, original, grammar, derivation));
   return adapted;
 }

@@ -8,6 +8,7 @@
 #include "base/executor.h"
 #include "io/provenance.h"
 #include "model/expand.h"
+#include "model/texture_table.h"
 #include "render/render.h"
 
 namespace espalier {
@@ -15,8 +16,8 @@ namespace espalier {
 class ModelFiles {
  public:
   /// All must outlive it. `ghosts`: target meshes shown in pictures; `picture`: width and height.
-  ModelFiles(const GeneratorGraph& graph, const MeshTable& meshes, const std::vector<Mesh>& ghosts,
-             std::array<std::uint32_t, 2> picture, Executor& executor);
+  ModelFiles(const GeneratorGraph& graph, const MeshTable& meshes, const TextureTable& textures,
+             const std::vector<Mesh>& ghosts, std::array<std::uint32_t, 2> picture, Executor& executor);
 
   /// By the ending of `path`: .glb .obj .ply .stl with details, .png, .json (the derivation). Throws Error.
   void write(const Derivation& derivation, const std::string& path, const Provenance& provenance);
@@ -27,6 +28,7 @@ class ModelFiles {
  private:
   const GeneratorGraph& graph_;
   const MeshTable& meshes_;
+  TextureTable textures_;
   const std::vector<Mesh>& ghosts_;
   std::array<std::uint32_t, 2> picture_;
   Executor& executor_;

@@ -62,7 +62,7 @@ SampleSet::SampleSet(const SampleRequest& request, MeshSource& source, Executor&
   request_.grammar = inputs_.grammar_name();
   settings_ = fmt::format("# Samples drawn by Espalier {}.\n{}", kVersion, to_toml(request_));
   draw();
-  files_.emplace(*grammar_.graph, meshes_, no_ghosts_, request_.picture, executor);
+  files_.emplace(*grammar_.graph, meshes_, load_textures(grammar_), no_ghosts_, request_.picture, executor);
 }
 
 void SampleSet::draw() {
