@@ -140,16 +140,12 @@ void BodyCompiler::statement(const ast::Stmt& stmt, NameScope& scope, bool tail)
     }
     case ast::StmtKind::mirror: return mirror(stmt, scope, tail);
     case ast::StmtKind::around: return around(stmt, scope);
-    case ast::StmtKind::split: return unavailable(stmt, "split");
-    case ast::StmtKind::comp: return unavailable(stmt, "comp");
+    case ast::StmtKind::split: return split(stmt, scope);
+    case ast::StmtKind::comp: return comp(stmt, scope);
     case ast::StmtKind::bone: return bone(stmt, scope);
     case ast::StmtKind::emit: return emit(stmt, scope);
     default: return space(stmt, scope);
   }
-}
-
-void BodyCompiler::unavailable(const ast::Stmt& stmt, const char* what) {
-  tables_.diagnostics.error("E0901", stmt.span, fmt::format("{} cannot be run by this version of Espalier yet", what));
 }
 
 void BodyCompiler::bind(const ast::Stmt& stmt, const Value& value, NameScope& scope) {

@@ -80,6 +80,14 @@ class BodyCompiler {
   void choose(const ast::Stmt& stmt, const NameScope& scope, bool tail);
   void choose_at_random(const ast::Stmt& stmt, const NameScope& scope, bool tail);
 
+  struct SplitLengths;
+  void split(const ast::Stmt& stmt, const NameScope& scope);
+  Operand split_size(const ast::Case& part, const Operand& whole, const NameScope& scope);
+  SplitLengths split_lengths(const ast::Stmt& stmt, const Operand& whole, const NameScope& scope);
+  void split_part(const ast::Case& part, int axis, const Operand& centre, const Operand& length,
+                  const NameScope& scope);
+  void comp(const ast::Stmt& stmt, const NameScope& scope);
+
   void emit(const ast::Stmt& stmt, const NameScope& scope);
   void bone(const ast::Stmt& stmt, const NameScope& scope);
   void spawn(const ast::Stmt& stmt, const NameScope& scope);
@@ -91,7 +99,6 @@ class BodyCompiler {
 
   /// The spawn that a stretch of statements exists for alone: jumped over where its slot is not filled.
   const ast::Stmt* sole_spawn(const ast::Block& block, std::size_t from) const;
-  void unavailable(const ast::Stmt& stmt, const char* what);
 
   GraphTables& tables_;
   const ast::Decl& decl_;

@@ -1,5 +1,6 @@
 // BodyCompiler: statements that move, turn and size.
 
+#include "base/check.h"
 #include "grammar/body_compiler.h"
 
 namespace espalier {
@@ -125,7 +126,7 @@ void BodyCompiler::space(const ast::Stmt& stmt, const NameScope& scope) {
       builder_.emit(OpCode::reseed).x = seed;
       return;
     }
-    default: return unavailable(stmt, "this statement");
+    default: CHECK(false);
   }
 }
 

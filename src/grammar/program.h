@@ -61,6 +61,7 @@ enum class OpCode : std::uint8_t {
   resize_axis,  // scope[axis] *= x
   resize,       // scope *= (x, y, z)
   resize_run,   // scope *= registers a..a+2
+  face,         // to face `axis` of the scope: its centre, z outward, size z = 0
   save,         // frame, scope, paint, bone and key to save slot a
   restore,      // from save slot a
   // Output

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "grammar/check_context.h"
+#include "grammar/face.h"
 #include "grammar/words.h"
 
 namespace espalier {
@@ -144,16 +145,21 @@ class StructureChecker {
   }
 
   void comp(const Stmt& stmt) {
-    static constexpr std::array<std::string_view, 8> kFaces = {"front", "back",   "right", "left",
-                                                               "top",   "bottom", "sides", "all"};
     std::set<std::string_view> seen;
+    std::uint8_t left = 0b111111;
     for (const ast::Case& one : stmt.cases) {
-      if (std::find(kFaces.begin(), kFaces.end(), one.face) == kFaces.end())
+      const auto named = faces_named(one.face);
+      if (!named)
         error("E0409", one.span, fmt::format("`comp` knows no face `{}`", one.face),
               "front, back, right, left, top, bottom, sides or all");
       else if (!seen.insert(one.face).second)
         error("E0409", one.span, fmt::format("the face `{}` is named twice", one.face),
               "each face goes to the first line naming it");
+      else if (!(*named & left))
+        context_.diagnostics.warning("W0410", one.span,
+                                     fmt::format("`{}` is never reached: lines before it take all its faces", one.face),
+                                     "each face goes to the first line naming it");
+      if (named) left = static_cast<std::uint8_t>(left & ~*named);
     }
     if (stmt.cases.empty()) error("E0408", stmt.span, "`comp` names at least one face, got none");
   }

@@ -214,6 +214,7 @@ bool Machine::run(const Program& program, const Derivation* derivation) {
       case OpCode::resize_run:
         for (int i = 0; i < 3; ++i) set_scope(i, registers_[i] * registers_[op.a + i]);
         break;
+      case OpCode::face: enter_face(static_cast<Face>(op.axis)); break;
       case OpCode::save:
         state.scope = lanes_at(kScopeRegister);
         saved_[op.a] = state;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "grammar/face.h"
 #include "model/model.h"
 #include "model/pending.h"
 
@@ -67,6 +68,7 @@ class Machine {
   void turn_axis(int axis, float angle);
   void turn(const Op& op);
   void aim(const Op& op);
+  void enter_face(Face face);
   [[gnu::always_inline]] inline void emit(const Op& op, Layer layer);
   void make_bone(const Op& op);
   void run_slot(const Program& program, const Op& op, const Derivation& derivation);

@@ -82,6 +82,26 @@ void Machine::aim(const Op& op) {
   for (int i = 0; i < 3; ++i) a[i] = lanes(r * vec3(a[i]));
 }
 
+// The axes change places, so a face of an exact frame is exact.
+void Machine::enter_face(Face face) {
+  Lanes* const a = current_.state.axis;
+  const Lanes x = a[0], y = a[1], z = a[2];
+  const auto turn = [&](const Lanes& across, const Lanes& up, const Lanes& outward, int width, int height, int depth) {
+    current_.state.origin += 0.5f * registers_[kScopeRegister + depth] * outward;
+    a[0] = across, a[1] = up, a[2] = outward;
+    const float w = registers_[kScopeRegister + width], h = registers_[kScopeRegister + height];
+    set_scope(0, w), set_scope(1, h), set_scope(2, 0);
+  };
+  switch (face) {
+    case Face::front: return turn(x, y, z, 0, 1, 2);
+    case Face::back: return turn(-x, y, -z, 0, 1, 2);
+    case Face::right: return turn(-z, y, x, 2, 1, 0);
+    case Face::left: return turn(z, y, -x, 2, 1, 0);
+    case Face::top: return turn(x, -z, y, 0, 2, 1);
+    case Face::bottom: return turn(x, z, -y, 0, 2, 1);
+  }
+}
+
 void Machine::make_bone(const Op& op) {
   const Vec3 from = point(lanes_at(op.a)), to = point(lanes_at(op.b));
   if (broken_scope() || !(length(to - from) < INFINITY) || !(length(to) < INFINITY)) {
