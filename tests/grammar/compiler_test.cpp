@@ -118,8 +118,6 @@ rule S { paint red  emit a  emit cone(top: 0.1, sides: 8)  emit box  emit b  emi
 }
 
 TEST(Compiler, WhatItRefusesHasACode) {
-  EXPECT_EQ(first_code("grammar s 1\nstart S\nrule S { split y { 1: { emit box } } }\n"), "E0901");
-  EXPECT_EQ(first_code("grammar s 1\nstart S\nrule S { comp { top: { emit quad } } }\n"), "E0901");
   EXPECT_EQ(first_code("grammar s 1\nmesh a = \"x.obj\"\nstart S\nrule S { m ~ pick(a, box)  emit m as is }\n"), "E0907");
 }
 

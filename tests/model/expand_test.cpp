@@ -4,6 +4,9 @@
 #include <set>
 #include <sstream>
 
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "derivation/moves.h"
@@ -156,6 +159,99 @@ rule B when depth(A) < 3 {
   maybe 0.4 spawn B
 }
 )", 400);
+}
+
+TEST(Expand, AgreesWithTheReferenceOnSplitAndComp) {
+  hold_against_reference(R"(grammar boxes 1
+start S
+rule S {
+  wide ~ uniform(0.5, 12)
+  deep ~ uniform(0, 8)
+  thin ~ uniform(0.3, 3)
+  turn y 30deg  scale (1, 2, 0.5)  size (wide, 6, deep)
+  spawn Cut(thin)
+  comp { right: { extrude 0.2  emit wedge  spawn Cut(thin) } sides: { maybe 0.5 spawn Cut(2 * thin) } all: { emit quad } }
+}
+rule Cut(tile) when depth < 5 {
+  share ~ uniform(0, 3)
+  which ~ integer(0, 3)
+  lean ~ uniform(-20deg, 20deg)
+  split x {
+    0.7: { emit box }
+    ~share: { turn z lean  emit pyramid }
+    repeat tile: { split y { 10%: { emit wedge } repeat tile: { emit cylinder  maybe 0.3 spawn Cut(tile * 0.7) } } }
+    ~1: { bone (0, 0, 0) -> scope  emit sphere }
+    20%: { if which > 0 { emit cone } }
+  }
+  split z { 1.5: { emit box } 2: { maybe 0.4 spawn Cut(tile) } 3 - which: { emit pyramid } }
+  comp { top: { emit quad  split y { ~1: { emit leaf } ~2: {} } } bottom: { roll 10deg  extrude -0.3  emit box } }
+}
+)", 300);
+}
+
+// One gene whose split is cut from a scope of `size` along x; the lengths of the parts in order.
+std::vector<float> split_of(const std::string& size, const std::string& parts) {
+  const auto graph = compile("grammar s 1\nstart S\nrule S { size (" + size + ", 1, 1)  split x { " + parts + " } }\n");
+  std::vector<float> lengths;
+  for (const Instance& i : expand(*graph, sampled(*graph, 0)).instances) lengths.push_back(i.model_from_mesh.basis[0].x);
+  return lengths;
+}
+
+TEST(Expand, SplitSharesOutTheScope) {
+  using testing::ElementsAre;
+  const auto near = [](float x) { return testing::FloatNear(x, 1e-5f); };
+  EXPECT_THAT(split_of("10", "2: { emit box } ~1: { emit box } 30%: { emit box } ~4: { emit box }"),
+              ElementsAre(near(2), near(1), near(3), near(4)));
+  // Fixed sizes too large shrink together; what has no length is not run.
+  EXPECT_THAT(split_of("3", "2: { emit box } ~1: { emit box } 4: { emit box } repeat 1: { emit box }"),
+              ElementsAre(near(1), near(2)));
+  // Beside floating parts tiles keep their size; alone they stretch to fill, and there is at least one.
+  EXPECT_THAT(split_of("5", "~1: { emit box } repeat 2: { emit box } ~3: { emit box }"),
+              ElementsAre(near(0.25f), near(2), near(2), near(0.75f)));
+  EXPECT_THAT(split_of("5", "1: { emit box } repeat 1.2: { emit box }"),
+              ElementsAre(near(1), near(4.f / 3), near(4.f / 3), near(4.f / 3)));
+  EXPECT_THAT(split_of("1", "repeat 7: { emit box }"), ElementsAre(near(1)));
+  EXPECT_THAT(split_of("0.9", "~1: { emit box } repeat 1: { emit box }"), ElementsAre(near(0.9f)));
+  // 0.3 = 3 * 0.1, whatever single precision makes of it.
+  EXPECT_EQ(split_of("0.3", "repeat 0.1: { emit box } ~1: { }").size(), 3u);
+}
+
+TEST(Expand, TooManyTilesAreReported) {
+  const auto graph = compile("grammar s 1\nstart S\nrule S { size 1e6  split x { repeat 1: { emit box } } }\n");
+  const Model model = expand(*graph, sampled(*graph, 0));
+  EXPECT_EQ(model.instances.size(), 1024u);
+  EXPECT_TRUE(model.truncated);
+}
+
+TEST(Expand, FacesLookOutwardsInMirroredScopesToo) {
+  for (const char* reflected : {"", "reflect x"}) {
+    const auto graph = compile(std::string("grammar c 1\nstart S\nrule S { size (2, 3, 4)  move (5, 6, 7)  ") +
+                               reflected + "  comp { all: { extrude 0.5  emit box } } }\n");
+    const Model model = expand(*graph, sampled(*graph, 0));
+    ASSERT_EQ(model.instances.size(), 6u);
+    float volume = 0;
+    for (const Instance& i : model.instances) {
+      EXPECT_GT(glm::dot(i.model_from_mesh.origin - Vec3(5, 6, 7), i.model_from_mesh.basis[2]), 0);
+      volume += std::abs(glm::determinant(i.model_from_mesh.basis));
+    }
+    EXPECT_NEAR(volume, 2 * 0.5 * (6 + 8 + 12), 1e-4);
+  }
+}
+
+TEST(Expand, TilesShareGenesButNotDetails) {
+  const auto graph = compile(R"(grammar t 1
+start S
+rule S { size (3, 1, 1)  split x { repeat 1: { spawn Tile } } }
+rule Tile { k ~ uniform(0.1, 0.9)  resize y k  emit box  detail Look }
+detail Look { j ~ uniform(0.1, 0.9)  resize y j  emit sphere }
+)");
+  const Derivation derivation = sampled(*graph, 0);
+  EXPECT_EQ(derivation.size(), 2u);
+  std::set<float> shared, own;
+  for (const Instance& i : expand(*graph, derivation, ExpandTo::full).instances)
+    (i.layer == Layer::detail ? own : shared).insert(i.model_from_mesh.basis[1].y);
+  EXPECT_EQ(shared.size(), 1u);
+  EXPECT_EQ(own.size(), 3u);
 }
 
 TEST(Expand, HandComputedBody) {

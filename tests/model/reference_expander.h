@@ -157,6 +157,8 @@ class Expander {
         }
         break;
       }
+      case ast::StmtKind::split: split(stmt, g, state, names); break;
+      case ast::StmtKind::comp: comp(stmt, g, state, names); break;
       case ast::StmtKind::move:
         state.t += state.a * (axis >= 0 ? eval(0).x() * unit(axis) : wide(0));
         break;
@@ -190,17 +192,88 @@ class Expander {
       }
       case ast::StmtKind::aim: aim(stmt, state, wide(0), stmt.exprs.size() > 1 ? eval(1).x() : 1); break;
       case ast::StmtKind::bone:
-        bones.push_back({state.a * wide(0) + state.t, state.a * wide(1) + state.t, g.at.gene});
+        if (!sleeping_) bones.push_back({state.a * wide(0) + state.t, state.a * wide(1) + state.t, g.at.gene});
         break;
       case ast::StmtKind::emit: {
         const Value mesh = eval(0);
         Mat m = state.a;
         if (!stmt.as_is) m = Mat(m[0] * state.s.x, m[1] * state.s.y, m[2] * state.s.z);
-        parts.push_back({m, state.t, mesh.mesh, mesh.v.y, g.at.gene});
+        if (!sleeping_) parts.push_back({m, state.t, mesh.mesh, mesh.v.y, g.at.gene});
         break;
       }
       case ast::StmtKind::spawn: spawn(stmt, g, state, names); break;
       default: break;  // paint, details: not looked at here
+    }
+  }
+
+  void split(const ast::Stmt& stmt, Gene& g, const State& state, const Names& names) {
+    using Sizing = ast::Case::Sizing;
+    const int axis = static_cast<int>(*stmt.axis);
+    const double whole = state.s[axis];
+    struct Stretch {
+      const ast::Case* line;
+      double size;
+    };
+    std::vector<Stretch> tiled;  // every tile one
+    double fixed = 0, shares = 0;
+    const auto size_of = [&](const ast::Case& line) {
+      const bool percent = line.value->kind == ast::ExprKind::number && line.value->unit == ast::Unit::percent;
+      return percent ? line.value->value / 100 * whole : std::max(0.0, evaluate(*line.value, g, state, names).x());
+    };
+    for (const ast::Case& line : stmt.cases) {
+      if (line.sizing == Sizing::plain) fixed += size_of(line);
+      if (line.sizing == Sizing::floating) shares += size_of(line);
+    }
+    const double room = std::max(0.0, whole - fixed);
+    double rest = room;
+    for (const ast::Case& line : stmt.cases) {
+      if (line.sizing != Sizing::repeat) continue;
+      int tiles = 0;
+      const double tile = size_of(line);
+      if (shares > 0) while ((tiles + 1) * tile <= room * (1 + 1e-9) + 1e-4 * tile) ++tiles;
+      else if (room > 0) tiles = std::max(1, int(std::floor(room / tile + 0.5)));
+      rest = shares > 0 ? std::max(0.0, room - tiles * tile) : 0;
+      for (int i = 0; i < tiles; ++i) tiled.push_back({&line, shares > 0 ? tile : room / tiles});
+    }
+    std::vector<Stretch> row;
+    for (const ast::Case& line : stmt.cases) {
+      if (line.sizing == Sizing::plain) row.push_back({&line, size_of(line) * (fixed > whole ? whole / fixed : 1)});
+      else if (line.sizing == Sizing::floating) row.push_back({&line, rest * size_of(line) / shares});
+      else if (tiled.empty()) row.push_back({&line, 0});
+      else row.insert(row.end(), tiled.begin(), tiled.end());
+    }
+    double at = -whole / 2;
+    for (const Stretch& part : row) {
+      State inner = state;
+      inner.t += state.a[axis] * (at + part.size / 2);
+      inner.s[axis] = part.size;
+      sleeping_ += !(part.size > 0);  // its genes sleep, but they are there and have their place
+      block(part.line->block, g, inner, names);
+      sleeping_ -= !(part.size > 0);
+      at += part.size;
+    }
+  }
+
+  void comp(const ast::Stmt& stmt, Gene& g, const State& state, const Names& names) {
+    struct Side {
+      std::string name;
+      bool side;
+      Vec outward, up;
+    };
+    const std::vector<Side> sides = {{"front", true, {0, 0, 1}, {0, 1, 0}},  {"back", true, {0, 0, -1}, {0, 1, 0}},
+                                     {"right", true, {1, 0, 0}, {0, 1, 0}},  {"left", true, {-1, 0, 0}, {0, 1, 0}},
+                                     {"top", false, {0, 1, 0}, {0, 0, -1}}, {"bottom", false, {0, -1, 0}, {0, 0, 1}}};
+    for (const Side& side : sides) {
+      for (const ast::Case& line : stmt.cases) {
+        if (line.face != side.name && line.face != "all" && !(line.face == "sides" && side.side)) continue;
+        const Vec across = glm::cross(side.up, side.outward);
+        State inner = state;
+        inner.t += state.a * (0.5 * side.outward * state.s);
+        inner.a = state.a * Mat(across, side.up, side.outward);
+        inner.s = {glm::length(across * state.s), glm::length(side.up * state.s), 0};
+        block(line.block, g, inner, names);
+        break;
+      }
     }
   }
 
@@ -239,7 +312,7 @@ class Expander {
   void spawn(const ast::Stmt& stmt, Gene& g, const State& state, const Names& names) {
     const auto [it, fresh] = g.slots.try_emplace({&stmt, g.turns}, g.slot_count);
     if (fresh) ++g.slot_count;
-    if (derivation_.slots[g.at.slot + it->second] != SlotState::filled) return;
+    if (sleeping_ || derivation_.slots[g.at.slot + it->second] != SlotState::filled) return;
     std::vector<Value> args;
     for (const auto& arg : stmt.target->args) args.push_back(evaluate(*arg, g, state, names));
     gene(g.children[it->second], state, args, g.depth + 1);
@@ -310,6 +383,7 @@ class Expander {
   const GeneratorGraph& graph_;
   const Derivation& derivation_;
   Names globals_;
+  int sleeping_ = 0;  // blocks of parts without length around
 };
 
 inline Value Expander::evaluate(const ast::Expr& e, const Gene& g, const State& state, const Names& names) const {
