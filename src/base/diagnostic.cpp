@@ -1,8 +1,11 @@
 #include "base/diagnostic.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/core.h>
+
+#include "base/check.h"
 
 namespace espalier {
 namespace {
@@ -54,21 +57,35 @@ std::string render(const Diagnostic& d, std::string_view file_name, std::string_
   return text;
 }
 
+std::string line_of(const SourceSpan& place, const SourceSpan& from, std::span<const std::string> files) {
+  if (place.file == from.file || place.file >= files.size()) return fmt::format("line {}", place.line);
+  return fmt::format("line {} of {}", place.line, files[place.file]);
+}
+
 std::string render(const Diagnostics& diagnostics, std::string_view file_name, std::string_view source) {
+  const SourceText only{std::string(file_name), std::string(source)};
+  return render(diagnostics, std::span(&only, 1));
+}
+
+std::string render(const Diagnostics& diagnostics, std::span<const SourceText> sources) {
+  CHECK(!sources.empty());
   std::vector<Diagnostic> sorted = diagnostics.items();
   std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Diagnostic& a, const Diagnostic& b) { return a.span.offset < b.span.offset; });
+                   [](const Diagnostic& a, const Diagnostic& b) { 
+                     return std::pair(a.span.file, a.span.offset) < std::pair(b.span.file, b.span.offset);
+                    });
   std::string text;
   std::size_t warnings = 0;
   for (const Diagnostic& d : sorted) {
-    text += render(d, file_name, source);
+    const SourceText& source = sources[std::min<std::size_t>(d.span.file, sources.size() - 1)];
+    text += render(d, source.name, source.text);
     warnings += d.severity == Severity::warning;
   }
   const std::size_t errors = diagnostics.error_count();
   if (errors > Diagnostics::kMostErrors)
     text += fmt::format("({} further errors not shown)\n", errors - Diagnostics::kMostErrors);
   if (errors + warnings > 0)
-    text += fmt::format("{}: {} error{}, {} warning{}\n", file_name, errors, errors == 1 ? "" : "s", warnings,
+    text += fmt::format("{}: {} error{}, {} warning{}\n", sources[0].name, errors, errors == 1 ? "" : "s", warnings,
                         warnings == 1 ? "" : "s");
   return text;
 }

@@ -4,20 +4,20 @@
 
 #include "cmd/attributes.h"
 #include "cmd/verbs.h"
-#include "grammar/compiler.h"
-#include "io/file.h"
 #include "io/mesh_import.h"
 #include "run/grammar_file.h"
 
 namespace espalier {
 namespace {
 
-void print_json(const std::string& file, const Diagnostics& diagnostics) {
+void print_json(const std::string& file, const CompileResult& result) {
+  const Diagnostics& diagnostics = result.diagnostics;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Diagnostic& d : diagnostics.items()) {
     list.push_back({{"severity", d.severity == Severity::error ? "error" : "warning"},
                     {"code", d.code},
                     {"message", d.message},
+                    {"file", result.sources[d.span.file].name},
                     {"line", d.span.line},
                     {"column", d.span.column},
                     {"offset", d.span.offset},
@@ -40,16 +40,18 @@ void print_summary(const std::string& file, const GeneratorGraph& graph) {
 }  // namespace
 
 int check_verb(const CheckOptions& options) {
-  const std::string text = read_file(options.file, kMostGrammarBytes);
-  const CompileResult result = compile_grammar({options.file, text, parse_attributes(options.attributes)});
+  const CompileResult result = compile_grammar_file(options.file, parse_attributes(options.attributes));
   if (options.json) {
-    print_json(options.file, result.diagnostics);
+    print_json(options.file, result);
   } else if (!result.diagnostics.items().empty()) {
-    fmt::print("{}", render(result.diagnostics, options.file, text));
+    fmt::print("{}", render(result.diagnostics, result.sources));
   }
   if (!result.graph) return kBadInput;
   AssimpMeshSource source;
-  load_meshes({options.file, text, result.graph, {}}, source);
+  LoadedGrammar grammar;
+  grammar.path = options.file;
+  grammar.graph = result.graph;
+  load_meshes(grammar, source);
   if (!options.json) print_summary(options.file, *result.graph);
   return kDone;
 }

@@ -158,6 +158,8 @@ struct Grammar {
   SourceSpan name_span;
   std::uint32_t language_version = 1;
   std::vector<Decl> decls;
+  /// By SourceSpan::file: paths relative to the grammar's folder; empty before imports are read.
+  std::vector<std::string> files;
 };
 
 }  // namespace espalier::ast

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/diagnostic.h"
@@ -64,6 +65,16 @@ struct CheckContext {
   /// Rules, like checked.ast.decls: what they spawn.
   std::vector<std::vector<SpawnTerm>> spawns{};
   std::vector<ChosenCase> chosen{};
+  /// Conditions of `if`, once loops are unrolled: whether they ever held, failed, or were not known.
+  struct Branches {
+    bool first = false, second = false, open = false;
+  };
+  struct TextOrder {
+    bool operator()(const ast::Stmt* a, const ast::Stmt* b) const {
+      return std::pair(a->span.file, a->span.offset) < std::pair(b->span.file, b->span.offset);
+    }
+  };
+  std::map<const ast::Stmt*, Branches, TextOrder> branches{};
 
   const std::vector<ast::Decl>& decls() const { return checked.ast.decls; }
   const ast::Decl* start() const { return checked.find(checked.start, ast::DeclKind::rule); }
@@ -91,8 +102,10 @@ void evaluate_values(CheckContext& context);
 void check_structure(CheckContext& context);
 /// Details that call themselves without end.
 void check_detail_recursion(CheckContext& context);
-/// Values of static expressions, and how large rules become once their loops are unrolled. Fills spawns and chosen.
+/// Values of static expressions, and how large rules become once their loops are unrolled. Fills spawns, chosen, branches.
 void check_unrolled(CheckContext& context);
+/// What can never come to pass: warnings.
+void check_unreachable(CheckContext& context);
 /// Whether derivations end, and how large they are expected to be.
 void check_growth(CheckContext& context);
 

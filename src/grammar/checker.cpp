@@ -23,6 +23,7 @@ std::optional<CheckedGrammar> check(ast::Grammar grammar, const std::map<std::st
   if (diagnostics.has_errors()) return std::nullopt;
   check_unrolled(context);
   if (diagnostics.has_errors()) return std::nullopt;
+  check_unreachable(context);
   check_growth(context);
   if (diagnostics.has_errors()) return std::nullopt;
   return checked;

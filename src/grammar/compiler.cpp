@@ -1,12 +1,13 @@
 #include "grammar/compiler.h"
 
+#include <filesystem>
+
 #include <fmt/core.h>
 
 #include "base/hash.h"
 #include "grammar/body_compiler.h"
 #include "grammar/checker.h"
 #include "grammar/depth_compiler.h"
-#include "grammar/parser.h"
 
 namespace espalier {
 namespace {
@@ -96,7 +97,7 @@ class GraphCompiler {
   Value mesh_file(const ast::Decl& decl, const std::string& path) {
     MeshRef file;
     file.kind = MeshKind::file;
-    file.path = path;
+    file.path = (std::filesystem::path(grammar_.ast.files.at(decl.span.file)).parent_path() / path).generic_string();
     file.span = decl.value->span;
     return {Kind::mesh, {constant_operand(tables_.mesh_index(file)), constant_operand(1)}, {}};
   }
@@ -175,8 +176,9 @@ class GraphCompiler {
   std::uint32_t most_locals_ = 0;
 };
 
-std::string hash_of(const GrammarSource& source) {
+std::string hash_of(const GrammarSource& source, const std::vector<SourceText>& sources) {
   std::string bytes = source.text;
+  for (std::size_t i = 1; i < sources.size(); ++i) bytes += fmt::format("\n# import {}\n{}", i, sources[i].text);
   for (const auto& [name, value] : source.attributes) bytes += fmt::format("\n# {} = {}", name, value);
   return content_hash(bytes);
 }
@@ -185,11 +187,12 @@ std::string hash_of(const GrammarSource& source) {
 
 CompileResult compile_grammar(const GrammarSource& source) {
   CompileResult result;
-  ast::Grammar ast = parse(source.text, result.diagnostics);
+  result.sources.push_back({source.path, source.text});
+  ast::Grammar ast = parse_with_imports(result.sources, source.read_import, result.diagnostics);
   if (result.diagnostics.has_errors()) return result;
   const auto checked = check(std::move(ast), source.attributes, result.diagnostics);
   if (!checked || result.diagnostics.has_errors()) return result;
-  result.graph = GraphCompiler(*checked, hash_of(source), result.diagnostics).compile();
+  result.graph = GraphCompiler(*checked, hash_of(source, result.sources), result.diagnostics).compile();
   return result;
 }
 

@@ -21,7 +21,8 @@ void declare(CheckContext& context, const Decl& decl) {
   const Decl& earlier = context.decls()[place->second];
   context.diagnostics.error(
       "E0203", decl.name_span, fmt::format("`{}` is declared twice; all declarations share one namespace", decl.name),
-      fmt::format("the {} `{}` stands on line {}", word_of(earlier.kind), decl.name, earlier.name_span.line));
+      fmt::format("the {} `{}` stands on {}", word_of(earlier.kind), decl.name,
+                  line_of(earlier.name_span, decl.name_span, context.checked.ast.files)));
 }
 
 void find_start(CheckContext& context, const Decl* start) {
@@ -81,8 +82,7 @@ void collect_declarations(CheckContext& context) {
   std::size_t bodies = 0;
   for (const Decl& decl : context.decls()) {
     if (decl.kind == DeclKind::import) {
-      context.diagnostics.error("E0121", decl.span, fmt::format("import of \"{}\" is not available yet", decl.name),
-                                "copy its declarations into this file");
+      context.diagnostics.error("E0121", decl.span, fmt::format("there is no folder to import \"{}\" from", decl.name));
     } else if (decl.kind != DeclKind::start) {
       declare(context, decl);
     } else if (start) {

@@ -120,7 +120,8 @@ void KindChecker::pass_argument(const ast::Decl& callee, std::size_t param, cons
     context_.diagnostics.error("E0304", arg.span,
                                fmt::format("all calls of `{}` must agree: `{}` is {} here", callee.name,
                                            callee.params[param].name, phrase_of(*kind)),
-                               fmt::format("it is {} on line {}", phrase_of(*known), signature.set_by[param].line));
+                               fmt::format("it is {} on {}", phrase_of(*known),
+                                           line_of(signature.set_by[param], arg.span, context_.checked.ast.files)));
   }
 }
 

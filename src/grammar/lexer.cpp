@@ -31,7 +31,8 @@ std::size_t utf8_length(std::string_view text) {
 
 class Lexer {
  public:
-  Lexer(std::string_view source, Diagnostics& diagnostics) : source_(source), diagnostics_(diagnostics) {
+  Lexer(std::string_view source, Diagnostics& diagnostics, std::uint16_t file)
+      : source_(source), diagnostics_(diagnostics), file_(file) {
     if (source_.starts_with("\xef\xbb\xbf")) line_start_ = at_ = 3;
   }
 
@@ -48,7 +49,7 @@ class Lexer {
  private:
   SourceSpan span(std::size_t begin, std::size_t length) const {
     return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(length), line_,
-            static_cast<std::uint32_t>(begin - line_start_ + 1)};
+            static_cast<std::uint32_t>(begin - line_start_ + 1), file_};
   }
   char peek(std::size_t ahead = 0) const { return at_ + ahead < source_.size() ? source_[at_ + ahead] : '\0'; }
 
@@ -198,12 +199,13 @@ class Lexer {
   std::size_t at_ = 0;
   std::uint32_t line_ = 1;
   std::uint32_t line_start_ = 0;
+  std::uint16_t file_;
 };
 
 }  // namespace
 
-std::vector<Token> tokenize(std::string_view source, Diagnostics& diagnostics) {
-  return Lexer(source, diagnostics).run();
+std::vector<Token> tokenize(std::string_view source, Diagnostics& diagnostics, std::uint16_t file) {
+  return Lexer(source, diagnostics, file).run();
 }
 
 std::string describe(const Token& token) {

@@ -32,8 +32,8 @@ struct Token {
 };
 
 /// The tokens of `source`, which they point into. What is no token is reported and left out; after
-/// Diagnostics::kMostErrors of those the rest of the text is not read.
-std::vector<Token> tokenize(std::string_view source, Diagnostics& diagnostics);
+/// Diagnostics::kMostErrors of those the rest of the text is not read. `file` goes into their spans.
+std::vector<Token> tokenize(std::string_view source, Diagnostics& diagnostics, std::uint16_t file = 0);
 
 /// "`move`", "the number `3`", "the end of the text": for messages.
 std::string describe(const Token& token);

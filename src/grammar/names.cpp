@@ -119,7 +119,7 @@ void NameChecker::declare(std::string_view name, LocalSort sort, const SourceSpa
   const bool global = in_start() && nesting_ == 0 && (sort == LocalSort::draw || sort == LocalSort::let);
   if (const Decl* decl = context_.checked.find(name))
     refuse(fmt::format("the {} of that name", word_of(decl->kind)),
-           fmt::format("it stands on line {}", decl->name_span.line));
+           fmt::format("it stands on {}", line_of(decl->name_span, span, context_.checked.ast.files)));
   else if (!global && context_.globals.contains(name) && in_start())
     refuse("the draw or let of that name at the top of the start rule", "those are seen everywhere");
   else if (!global && context_.globals.contains(name)) context_.hidings.push_back({name, span});
@@ -166,7 +166,8 @@ void NameChecker::close_globals() {
     constexpr const char* kHelp = "those are seen everywhere; pick another name for one of the two";
     if (context_.globals.find(hiding.name)->second.used_outside)
       context_.diagnostics.error("E0204", hiding.span, message, kHelp);
-    else context_.diagnostics.warning("W0204", hiding.span, message, kHelp);
+    else if (hiding.span.file == 0)  // an imported file cannot know who imports it
+      context_.diagnostics.warning("W0204", hiding.span, message, kHelp);
   }
 }
 
@@ -215,7 +216,7 @@ void check_reach(CheckContext& context) {
     if (decl.kind != DeclKind::rule && decl.kind != DeclKind::detail) continue;
     const bool here = reached[context.index_of(decl)];
     context.checked.reachable[decl.name] = here;
-    if (!here)
+    if (!here && decl.span.file == 0)  // a file that is imported may hold more than is needed
       context.diagnostics.warning(
           "W0222", decl.name_span,
           fmt::format("the start rule never leads to the {} `{}`", word_of(decl.kind), decl.name));
@@ -227,7 +228,7 @@ void warn_of_unused(CheckContext& context) {
     const bool value = decl.kind == DeclKind::constant || decl.kind == DeclKind::function ||
                        decl.kind == DeclKind::attribute || decl.kind == DeclKind::mesh ||
                        decl.kind == DeclKind::material;
-    if (value && !context.used[context.index_of(decl)])
+    if (value && decl.span.file == 0 && !context.used[context.index_of(decl)])
       context.diagnostics.warning("W0221", decl.name_span,
                                   fmt::format("nobody reads the {} `{}`", word_of(decl.kind), decl.name));
   }

@@ -208,14 +208,14 @@ void Parser::skip_to_declaration() {
 
 // Entry points.
 
-ast::Grammar parse(std::string_view source, Diagnostics& diagnostics) {
+ast::Grammar parse(std::string_view source, Diagnostics& diagnostics, std::uint16_t file) {
   if (source.size() > kLargestSource) {
     diagnostics.error(
-        "E0105", SourceSpan{},
+        "E0105", SourceSpan{.file = file},
         fmt::format("a grammar is at most {} bytes long, this one has {}", kLargestSource, source.size()));
     return {};
   }
-  return Parser(tokenize(source, diagnostics), diagnostics).file();
+  return Parser(tokenize(source, diagnostics, file), diagnostics).file();
 }
 
 ast::ExprPtr Parser::lone_expression() {

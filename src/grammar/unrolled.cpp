@@ -142,6 +142,8 @@ class Unroller {
   double condition(const Stmt& stmt) {
     const StaticScope fixed{context_.checked, false, scope_.locals};
     const auto holds = evaluate_static(*stmt.exprs[0], fixed);
+    CheckContext::Branches& taken = context_.branches[&stmt];
+    (!holds ? taken.open : holds->truth() ? taken.first : taken.second) = true;
     if (!holds || !in_rule_) return blocks(stmt);
     if (holds->truth()) return block(stmt.blocks[0]);
     return stmt.blocks.size() > 1 ? block(stmt.blocks[1]) : 1;

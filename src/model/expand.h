@@ -8,9 +8,11 @@
 
 namespace espalier {
 
+/// The phases of a grammar, each including those before (Guiding curves 2018, section 3).
 enum class ExpandTo : std::uint8_t {
-  parts,  // rules only: bones and emits, no details
-  full,   // details too
+  bones,  // the skeleton: rules run, and their bones are all that they make
+  parts,  // emits of rules
+  full,   // details, and what open slots show
 };
 
 struct ExpandLimits {

@@ -223,7 +223,9 @@ bool Machine::run(const Program& program, const Derivation* derivation) {
         state = saved_[op.a];
         for (int i = 0; i < 3; ++i) registers_[kScopeRegister + i] = state.scope[i];
         break;
-      case OpCode::emit: emit(op, kGene ? Layer::rule : Layer::detail); break;
+      case OpCode::emit:
+        if (parts_wanted) emit(op, kGene ? Layer::rule : Layer::detail);
+        break;
       case OpCode::bone: make_bone(op); break;
       case OpCode::paint: state.material = value(op.x); break;
       case OpCode::slot:

@@ -36,6 +36,7 @@ class Machine {
   PendingQueue children;  // last in, first out
   PendingQueue calls;     // first in, first out
   Model* model = nullptr;
+  bool parts_wanted = false;
   bool details_wanted = false;
   std::uint32_t parts_left = 0;  // emits and calls still allowed; at 0 the model is truncated
   std::uint32_t turns_left = 0;  // turns of loops, likewise

@@ -1,20 +1,28 @@
 #include "run/grammar_file.h"
 
 #include <filesystem>
+#include <iterator>
 
 #include "base/error.h"
-#include "grammar/compiler.h"
 #include "io/file.h"
 
 namespace espalier {
 
+CompileResult compile_grammar_file(const std::string& path, const std::map<std::string, std::string>& attributes) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  const ReadImport read = [&](const std::string& name) { return read_file((folder / name).string(), kMostGrammarBytes); };
+  return compile_grammar({path, read_file(path, kMostGrammarBytes), attributes, read});
+}
+
 LoadedGrammar load_grammar(const std::string& path, const std::map<std::string, std::string>& attributes) {
   LoadedGrammar grammar;
   grammar.path = path;
-  grammar.text = read_file(path, kMostGrammarBytes);
-  const CompileResult result = compile_grammar({path, grammar.text, attributes});
+  CompileResult result = compile_grammar_file(path, attributes);
   std::string report;
-  if (!result.diagnostics.items().empty()) report = render(result.diagnostics, path, grammar.text);
+  if (!result.diagnostics.items().empty()) report = render(result.diagnostics, result.sources);
+  grammar.text = std::move(result.sources[0].text);
+  grammar.imports.assign(std::make_move_iterator(result.sources.begin() + 1),
+                         std::make_move_iterator(result.sources.end()));
   if (!result.graph) {
     while (report.ends_with('\n')) report.pop_back();
     throw Error(report.empty() ? path + ": the grammar does not compile" : report);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "grammar/graph.h"
+#include "grammar/compiler.h"
 #include "model/model.h"
 
 namespace espalier {
@@ -15,9 +15,14 @@ inline constexpr std::uint64_t kMostGrammarBytes = 16ull << 20;
 
 struct LoadedGrammar {
   std::string path, text;
+  std::vector<SourceText> imports;  // named by path
   std::shared_ptr<const GeneratorGraph> graph;
   std::string warnings;  // rendered diagnostics; empty if there are none
 };
+
+/// Compiles the grammar of a file, with its attributes set and its imports read. Throws Error naming the file when it cannot
+/// be read; other faults are in the diagnostics.
+CompileResult compile_grammar_file(const std::string& path, const std::map<std::string, std::string>& attributes);
 
 /// Throws Error holding all rendered diagnostics when the text has errors, or naming the file when it cannot be read.
 LoadedGrammar load_grammar(const std::string& path, const std::map<std::string, std::string>& attributes);

@@ -59,6 +59,7 @@ void InputFiles::add_grammar(const LoadedGrammar& grammar) {
     return (fs::path("inputs") / file.lexically_normal().lexically_relative(root)).generic_string();
   };
   grammar_name_ = add(name_for(path), grammar.text);
+  for (const SourceText& import : grammar.imports) add(name_for(fs::absolute(import.name)), import.text);
   for (const MeshRef& mesh : grammar.graph->meshes) {
     if (mesh.kind != MeshKind::file) continue;
     const fs::path file = path.parent_path() / mesh.path;

@@ -7,7 +7,7 @@ namespace espalier {
 SceneScorer::SceneScorer(const GeneratorGraph& graph, const Objective& objective, Executor& executor)
     : objective_(objective),
       executor_(executor),
-      phase_(objective.view() == TargetView::full ? ExpandTo::full : ExpandTo::parts) {
+      view_(objective.view()) {
   workers_.reserve(static_cast<std::size_t>(executor.workers()));
   for (int i = 0; i < executor.workers(); ++i) {
     workers_.push_back({Expander(graph), Model(), Objective::Scratch(objective)});
@@ -15,7 +15,12 @@ SceneScorer::SceneScorer(const GeneratorGraph& graph, const Objective& objective
 }
 
 const Model& SceneScorer::expand(const Derivation& derivation, Worker& worker) const {
-  worker.expander.expand(derivation, phase_, worker.model);
+  switch (view_) {
+    case TargetView::genes: break;  // the model stays empty
+    case TargetView::bones: worker.expander.expand(derivation, ExpandTo::bones, worker.model); break;
+    case TargetView::parts: worker.expander.expand(derivation, ExpandTo::parts, worker.model); break;
+    case TargetView::full: worker.expander.expand(derivation, ExpandTo::full, worker.model); break;
+  }
   return worker.model;
 }
 

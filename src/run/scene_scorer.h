@@ -31,7 +31,7 @@ class SceneScorer final : public BatchScorer {
 
   const Objective& objective_;
   Executor& executor_;
-  ExpandTo phase_;
+  TargetView view_;
   std::vector<Worker> workers_;
 };
 

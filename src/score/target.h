@@ -13,8 +13,8 @@
 
 namespace espalier {
 
-/// What a target reads, each including those before: the derivation; bones and emits of rules; details too.
-enum class TargetView : std::uint8_t { genes, parts, full };
+/// What a target reads, each including those before: the derivation; bones; emits of rules; emits of details too.
+enum class TargetView : std::uint8_t { genes, bones, parts, full };
 
 /// One line of an explanation: value = weight * (what the form makes of count, often count or S(count / of)).
 struct Term {

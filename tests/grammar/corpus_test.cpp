@@ -12,7 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "grammar/checker.h"
-#include "grammar/parser.h"
+#include "base/error.h"
+#include "grammar/imports.h"
 
 namespace espalier {
 namespace {
@@ -52,11 +53,19 @@ struct Outcome {
 
 Outcome outcome_of(const fs::path& path, const std::string& source) {
   Diagnostics diagnostics;
-  ast::Grammar grammar = parse(source, diagnostics);
+  std::vector<SourceText> sources{{path.filename().string(), source}};
+  const auto read_import = [&](const std::string& name) {
+    const fs::path file = path.parent_path() / name;
+    if (!fs::exists(file)) throw Error("no such file");
+    return read(file);
+  };
+  ast::Grammar grammar = parse_with_imports(sources, read_import, diagnostics);
   const bool accepted = check(std::move(grammar), {}, diagnostics).has_value();
-  Outcome outcome{accepted, {}, render(diagnostics, path.filename().string(), source)};
+  Outcome outcome{accepted, {}, render(diagnostics, sources)};
   for (const Diagnostic& d : diagnostics.items())
-    outcome.found.insert(fmt::format("{} {}:{}", d.code, d.span.line, d.span.column));
+    outcome.found.insert(d.span.file == 0
+                             ? fmt::format("{} {}:{}", d.code, d.span.line, d.span.column)
+                             : fmt::format("{} {} {}:{}", d.code, sources[d.span.file].name, d.span.line, d.span.column));
   return outcome;
 }
 

@@ -238,6 +238,43 @@ TEST(Expand, FacesLookOutwardsInMirroredScopesToo) {
   }
 }
 
+// The three phases: bones of rules; their parts; details, with what open slots show instead of children.
+TEST(Expand, EachPhaseAddsToTheOneBefore) {
+  const auto graph = compile(R"(grammar p 1
+start S
+rule S { spawn A otherwise detail Bud }
+rule A {
+  bend ~ uniform(-30deg, 30deg)
+  turn z bend  bone (0, 0, 0) -> (0, 1, 0)
+  emit cylinder  detail Bark
+  move y 1  maybe 0.7 spawn A else detail Leaf otherwise detail Bud
+}
+detail Bark { emit box }
+detail Leaf { emit leaf }
+detail Bud { emit sphere }
+)");
+  const auto count = [&](const Model& model, MeshKind kind) {
+    return std::count_if(model.instances.begin(), model.instances.end(),
+                         [&](const Instance& i) { return graph->meshes[i.mesh].kind == kind; });
+  };
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    RandomStream random({5, Purpose::test, 0, i});
+    const Derivation unfinished = sample(*graph, random, 4).derivation;  // at most 4 genes; the next slot stays open
+    const Model bones = expand(*graph, unfinished, ExpandTo::bones), parts = expand(*graph, unfinished);
+    const Model full = expand(*graph, unfinished, ExpandTo::full);
+    EXPECT_TRUE(bones.instances.empty());
+    const auto chain = static_cast<std::ptrdiff_t>(unfinished.size()) - 1;
+    for (const Model* model : {&bones, &parts, &full}) ASSERT_EQ(std::ssize(model->bones), chain);
+    EXPECT_EQ(std::ssize(parts.instances), chain);
+    EXPECT_EQ(count(parts, MeshKind::cylinder), chain);
+    EXPECT_EQ(count(full, MeshKind::cylinder), chain);
+    EXPECT_EQ(count(full, MeshKind::box), chain);
+    const bool open = std::count(unfinished.slots.begin(), unfinished.slots.end(), SlotState::open) > 0;
+    EXPECT_EQ(count(full, MeshKind::sphere), open ? 1 : 0);
+    EXPECT_EQ(count(full, MeshKind::leaf), open ? 0 : 1);
+  }
+}
+
 TEST(Expand, TilesShareGenesButNotDetails) {
   const auto graph = compile(R"(grammar t 1
 start S

@@ -11,10 +11,12 @@
 namespace espalier {
 namespace {
 
+using testing::box_obj;
 using testing::read_text;
 using testing::read_tree;
 using testing::TemporaryFolder;
 using testing::write_pile;
+using testing::write_text;
 
 SampleRequest request_in(const TemporaryFolder& folder) {
   SampleRequest request;
@@ -128,6 +130,24 @@ TEST(Sample, AttributesShapeTheModels) {
   request.attributes["widets"] = "3";
   EXPECT_THROW(sample_into(request, folder / "bad"), Error);
   EXPECT_FALSE(std::filesystem::exists(folder / "bad"));
+}
+
+TEST(Sample, ImportedGrammarsAndTheirMeshesGoAlong) {
+  const TemporaryFolder folder;
+  write_text(folder / "pile.esp", "grammar pile 1\nimport \"parts/top.esp\"\nstart S\nrule S { spawn Top }\n");
+  write_text(folder / "parts/top.esp",
+             "grammar top 1\nmesh tower = \"../meshes/tower.obj\"\nstart Top\n"
+             "rule Top { wide ~ uniform(1, 2)  size wide  emit tower }\n");
+  write_text(folder / "meshes/tower.obj", box_obj(-1, 0, -0.5, 1, 4, 0.5));
+  sample_into(request_in(folder), folder / "out");
+  std::filesystem::remove_all(folder / "parts");
+  std::filesystem::remove_all(folder / "meshes");
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/inputs/parts/top.esp"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/inputs/meshes/tower.obj"));
+  AssimpMeshSource source;
+  const auto executor = make_serial_executor();
+  const ReproduceReport report = reproduce(folder / "out/01.glb", "", source, *executor);
+  EXPECT_TRUE(report.identical()) << ::testing::PrintToString(report.differences);
 }
 
 TEST(Sample, EveryFileIsReproducedIdentically) {
