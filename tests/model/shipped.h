@@ -2,10 +2,6 @@
 // A shipped grammar, grown and expanded, with what tests ask of it: parents, rules, parts and bones of a gene.
 
 #include <cmath>
-#include <fstream>
-#include <map>
-#include <memory>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,23 +10,12 @@
 
 #include "derivation/moves.h"
 #include "derivation/sample.h"
-#include "grammar/compiler.h"
 #include "model/expand.h"
+#include "shipped_grammar.h"
 
 namespace espalier::test {
 
 inline constexpr float kDegree = 3.14159265f / 180;
-
-inline std::shared_ptr<const GeneratorGraph> shipped(const std::string& name,
-                                                     const std::map<std::string, std::string>& attributes = {}) {
-  const std::string path = std::string(ESPALIER_SOURCE_DIR) + "/grammars/" + name;
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  const CompileResult result = compile_grammar({path, text.str(), attributes});
-  EXPECT_TRUE(result.graph) << render(result.diagnostics, path, text.str());
-  return result.graph;
-}
 
 inline RandomStream stream_of(std::uint32_t index) { return RandomStream({2018, Purpose::test, 0, index}); }
 

@@ -53,7 +53,7 @@ void check_leaf(const Grown& tree, std::size_t gene) {
 }
 
 void check_tree(const char* name, const Ranges& ranges) {
-  const auto graph = shipped(name);
+  const auto graph = compile_shipped(name);
   ASSERT_TRUE(graph);
   std::set<int> slots;
   for (std::uint32_t i = 0; i < 20; ++i) {
@@ -75,7 +75,7 @@ TEST(TreeV2, KeepsThePublishedRanges) { check_tree("tree-v2.esp", {0.38f, 120, 3
 TEST(TreeTwoBranch, KeepsThePublishedRanges) { check_tree("tree-two-branch.esp", {0.5f, 180, 35, 85}); }
 
 TEST(TreeV1, StandsWithinTwoAndAHalfOfTheMiddle) {
-  const auto graph = shipped("tree-v1.esp");
+  const auto graph = compile_shipped("tree-v1.esp");
   float furthest = 0;
   for (std::uint32_t i = 0; i < 50; ++i) {
     const Vec3 at = Grown(*graph, grown(*graph, 1, i)).parts(0)[0]->model_from_mesh.origin;
@@ -86,7 +86,7 @@ TEST(TreeV1, StandsWithinTwoAndAHalfOfTheMiddle) {
 }
 
 TEST(GuidedTree, BendsAndShrinksAsInThePaper) {
-  const auto graph = shipped("guided-tree.esp");
+  const auto graph = compile_shipped("guided-tree.esp");
   for (std::uint32_t i = 0; i < 20; ++i) {
     const Grown tree(*graph, grown(*graph, 150, i));
     std::size_t seen = 0;
@@ -105,7 +105,7 @@ TEST(GuidedTree, BendsAndShrinksAsInThePaper) {
 
 /// All leaves of the paper's tree look at one point.
 TEST(GuidedTree, LeavesLookAtTheirPoint) {
-  const auto graph = shipped("guided-tree.esp");
+  const auto graph = compile_shipped("guided-tree.esp");
   const Grown tree(*graph, grown(*graph, 60, 1), ExpandTo::full);
   std::size_t stalks = 0;
   for (const Instance& part : tree.model.instances) {
@@ -129,7 +129,7 @@ std::string rewritten(int steps) {
 }
 
 TEST(Plant, FullOfShootsHasTheStemsOfTheRewrittenWord) {
-  const auto graph = shipped("plant.esp");
+  const auto graph = compile_shipped("plant.esp");
   const Grown plant(*graph, grown(*graph, 1'000'000, 1));
   EXPECT_EQ(plant.derivation.size(), 1 + (729u - 1) / 2) << "1 + 3 + 9 + ... of them, and the start";
   double total = 0;

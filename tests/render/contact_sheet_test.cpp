@@ -56,7 +56,8 @@ TEST(ContactSheet, IsNearlyFourToThree) {
 
 TEST(ContactSheet, HasTheColumnsAskedFor) {
   const std::vector<SheetCell> cells(8, {plain(200, 150, 0), "x"});
-  const Picture row = contact_sheet(cells, "t", 8), column = contact_sheet(cells, "t", 1), four = contact_sheet(cells, "t", 4);
+  const Picture row = contact_sheet(cells, "t", 8), column = contact_sheet(cells, "t", 1);
+  const Picture four = contact_sheet(cells, "t", 4);
   EXPECT_GT(row.width, 8 * 200u);
   EXPECT_LT(row.height, 2 * 150u);
   EXPECT_LT(column.width, 2 * 200u);

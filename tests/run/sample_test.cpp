@@ -109,7 +109,8 @@ TEST(Sample, TheSheetHasTheColumnsAndCellsAskedFor) {
   const auto size = [&](const char* name) {  // a PNG's header holds them, most significant byte first
     const std::string text = read_text(folder / name);
     const auto whole = [&](std::size_t at) {
-      return static_cast<unsigned>(static_cast<unsigned char>(text.at(at)) << 8 | static_cast<unsigned char>(text.at(at + 1)));
+      const auto high = static_cast<unsigned char>(text.at(at)), low = static_cast<unsigned char>(text.at(at + 1));
+      return static_cast<unsigned>(high << 8 | low);
     };
     return std::array<unsigned, 2>{whole(18), whole(22)};
   };
