@@ -16,4 +16,10 @@ std::map<std::string, std::string> parse_attributes(const std::vector<std::strin
   return result;
 }
 
+void print_adapted(const AdaptedGenes& adapted) {
+  if (adapted.cut + adapted.grown == 0) return;
+  fmt::print(stderr, "note: with these attributes {} genes cannot stand and are left out, {} new ones are required\n",
+             adapted.cut, adapted.grown);
+}
+
 }  // namespace espalier

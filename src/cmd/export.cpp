@@ -11,8 +11,9 @@ namespace espalier {
 int export_verb(const ExportVerbOptions& options) {
   AssimpMeshSource source;
   const std::unique_ptr<Executor> executor = make_serial_executor();
-  export_derivation({options.derivation, options.grammar, parse_attributes(options.attributes), options.out}, source,
-                    *executor);
+  const AdaptedGenes adapted = export_derivation({options.derivation, options.grammar, parse_attributes(options.attributes), options.out},
+                                                 source, *executor);
+  print_adapted(adapted);
   fmt::print("wrote {}\n", options.out);
   return kDone;
 }

@@ -18,8 +18,8 @@ namespace {
 /// Receives the events of nlohmann's parser, so no document is ever built.
 class Document final : public nlohmann::json_sax<nlohmann::json> {
  public:
-  Document(const GeneratorGraph& graph, std::uint32_t most_genes, bool allow_other_grammar)
-      : graph_(graph), genes_(graph, most_genes), allow_other_grammar_(allow_other_grammar) {}
+  Document(const GeneratorGraph& graph, std::uint32_t most_genes, Fit fit)
+      : graph_(graph), genes_(graph, most_genes), fit_(fit) {}
 
   Derivation finish();
 
@@ -55,7 +55,7 @@ class Document final : public nlohmann::json_sax<nlohmann::json> {
 
   const GeneratorGraph& graph_;
   GeneReader genes_;
-  bool allow_other_grammar_;
+  Fit fit_;
   Place place_ = Place::outside;
   std::size_t member_ = kMembers.size();  // the one being read
   std::array<bool, kMembers.size()> seen_{};
@@ -82,7 +82,7 @@ void Document::take_seed(const std::string& value) {
 
 void Document::take_text(const std::string& value) {
   const auto must_be = [&](const std::string& expected) {
-    if (value == expected || allow_other_grammar_) return;
+    if (value == expected || fit_ != Fit::same_grammar) return;
     fail(fmt::format("{}: made by \"{}\", but the grammar at hand is \"{}\"", kMembers[member_], value, expected));
   };
   switch (member_) {
@@ -184,15 +184,14 @@ Derivation Document::finish() {
   }
   Derivation derivation = genes_.finish();
   derivation.detail_seed = detail_seed_;
-  if (const std::string fault = find_fault(graph_, derivation); !fault.empty()) fail(fault);
+  if (const std::string fault = find_fault(graph_, derivation, fit_); !fault.empty()) fail(fault);
   return derivation;
 }
 
 }  // namespace
 
-Derivation decode(const GeneratorGraph& graph, std::string_view json, std::uint32_t most_genes,
-                  bool allow_other_grammar) {
-  Document document(graph, most_genes, allow_other_grammar);
+Derivation decode(const GeneratorGraph& graph, std::string_view json, std::uint32_t most_genes, Fit fit) {
+  Document document(graph, most_genes, fit);
   nlohmann::json::sax_parse(json.begin(), json.end(), &document);
   return document.finish();
 }

@@ -22,15 +22,18 @@ inline constexpr int kDerivationVersion = 1;
 /// The JSON text of a valid derivation of `graph`, one line per gene, ending with "}" and no line end.
 std::string encode(const GeneratorGraph& graph, const Derivation& derivation);
 
-/// Reads what `encode` wrote. Throws Error (place, rule, value) for anything that is not a derivation of this graph:
-/// malformed JSON, unknown version, member, rule or edge, wrong counts, broken guards or limits, more than `most_genes`
-/// genes. Another grammar's name or hash is an error too unless `allow_other_grammar`: then the derivation need only
-/// fit.
+/// How well a derivation must fit: it names this grammar and its hash; it is valid whatever it names; it is valid but for
+/// guards and probabilities, and wants to be adapted (adapt.h).
+enum class Fit : std::uint8_t { same_grammar, valid, adaptable };
+
+/// Reads what `encode` wrote. Throws Error (place, rule, value) for anything that does not fit this graph: malformed JSON,
+/// unknown version, member, rule or edge, wrong counts, broken guards or limits, more than `most_genes` genes.
 Derivation decode(const GeneratorGraph& graph, std::string_view json, std::uint32_t most_genes = 4'000'000,
-                  bool allow_other_grammar = false);
+                  Fit fit = Fit::same_grammar);
 
 /// Empty if `derivation` is a valid derivation of `graph`, otherwise what is wrong with it and where. Trusts nothing
-/// and checks everything: counts, edges against slots, variants, guards, limits. Linear time.
-std::string find_fault(const GeneratorGraph& graph, const Derivation& derivation);
+/// and checks everything: counts, edges against slots, variants, limits, and unless it need only be adaptable, guards
+/// and probabilities. Linear time.
+std::string find_fault(const GeneratorGraph& graph, const Derivation& derivation, Fit fit = Fit::valid);
 
 }  // namespace espalier

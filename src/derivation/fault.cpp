@@ -10,7 +10,8 @@ namespace {
 /// Reads a derivation gene by gene, trusting nothing.
 class FaultFinder {
  public:
-  FaultFinder(const GeneratorGraph& graph, const Derivation& derivation) : graph_(graph), derivation_(derivation) {}
+  FaultFinder(const GeneratorGraph& graph, const Derivation& derivation, bool guarded)
+      : graph_(graph), derivation_(derivation), guarded_(guarded) {}
 
   std::string run();
 
@@ -32,6 +33,7 @@ class FaultFinder {
 
   const GeneratorGraph& graph_;
   const Derivation& derivation_;
+  bool guarded_;  // guards and probabilities count
   std::vector<Frame> stack_;
   DepthCounter above_, below_;
   LimitLedger ledger_;
@@ -74,6 +76,7 @@ std::string FaultFinder::expect_edge(std::uint32_t gene, EdgeId& edge) {
 
 std::string FaultFinder::check_slot(const Slot& slot, SlotState state) const {
   if (state > SlotState::absent) return fmt::format("has the unknown state {}", static_cast<int>(state));
+  if (!guarded_) return {};
   const Edge& edge = graph_.edges[slot.edge];
   const bool guard = may_stand(graph_, slot.edge, below_.counts());
   const std::uint32_t depth = below_.counts().depth;
@@ -110,7 +113,7 @@ std::string FaultFinder::visit(std::uint32_t gene) {
   const Frame frame{gene, slots_, 0, slots_ + variant.slots.size(), draws_ + variant.draws.size(), &rule, &variant};
   if (frame.slots_end > derivation_.slots.size()) return fmt::format("{}: its slots are missing", place(frame));
   if (frame.draws_end > derivation_.draws.size()) return fmt::format("{}: its draws are missing", place(frame));
-  if (variant_probability(variant, above_.counts()) <= 0) {
+  if (guarded_ && variant_probability(variant, above_.counts()) <= 0) {
     return fmt::format("{}: variant {} has probability 0 at depth {}", place(frame), record.variant,
                        above_.counts().depth);
   }
@@ -149,8 +152,8 @@ std::string FaultFinder::run() {
 
 }  // namespace
 
-std::string find_fault(const GeneratorGraph& graph, const Derivation& derivation) {
-  return FaultFinder(graph, derivation).run();
+std::string find_fault(const GeneratorGraph& graph, const Derivation& derivation, Fit fit) {
+  return FaultFinder(graph, derivation, fit != Fit::adaptable).run();
 }
 
 }  // namespace espalier

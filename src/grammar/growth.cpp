@@ -18,13 +18,13 @@ constexpr int kMostIterations = 1000;
 }  // namespace
 
 /// Far down inside a component its rules have been seen often, all others once.
-StaticScope Growth::far_below(const Rules& component, double depth) const {
+StaticScope GrowthCheck::far_below(const Rules& component, double depth) const {
   std::set<std::string_view> inside;
   for (const std::size_t rule : component) inside.insert(context_.decls()[rule].name);
   return samples_.at(depth, [&](const std::string& rule) { return inside.contains(rule) ? depth : 1.0; });
 }
 
-double Growth::mean_children(const SpawnTerm& term, const StaticScope& scope) const {
+double GrowthCheck::mean_children(const SpawnTerm& term, const StaticScope& scope) const {
   double mean = term.copies;
   if (term.spawn->probability) {
     const auto p = evaluate_static(*term.spawn->probability, scope);
@@ -46,7 +46,7 @@ double Growth::mean_children(const SpawnTerm& term, const StaticScope& scope) co
   return mean;
 }
 
-bool Growth::has_cycle(const Rules& component) const {
+bool GrowthCheck::has_cycle(const Rules& component) const {
   if (component.size() > 1) return true;
   const auto& terms = context_.spawns[component[0]];
   return std::any_of(terms.begin(), terms.end(), [&](const SpawnTerm& t) { return t.child == component[0]; });
@@ -54,7 +54,7 @@ bool Growth::has_cycle(const Rules& component) const {
 
 /// Whether the guard of a rule fails in the long run on every way round its cycles. Two depths in a row are tried, for
 /// guards like `depth mod 2 == 0`.
-bool Growth::guard_ends(std::size_t rule, const Rules& component) const {
+bool GrowthCheck::guard_ends(std::size_t rule, const Rules& component) const {
   const ast::ExprPtr& guard = context_.decls()[rule].guard;
   if (!guard) return false;
   for (const double depth : {kFarBelow, kFarBelow + 1}) {
@@ -66,7 +66,7 @@ bool Growth::guard_ends(std::size_t rule, const Rules& component) const {
 
 /// Of the matrix of mean children among the rules of a component: power iteration on M + 1, with the bounds of Collatz
 /// and Wielandt.
-double Growth::spectral_radius(const Rules& component, bool required_only) const {
+double GrowthCheck::spectral_radius(const Rules& component, bool required_only) const {
   struct Entry {
     std::size_t row, column;
     double mean;
@@ -100,7 +100,7 @@ double Growth::spectral_radius(const Rules& component, bool required_only) const
 }
 
 /// "`A` -> `B` -> `A`": a shortest way from the first rule of the component back to itself.
-std::string Growth::name_cycle(const Rules& component, bool required_only) const {
+std::string GrowthCheck::name_cycle(const Rules& component, bool required_only) const {
   std::vector<std::size_t> from(context_.decls().size(), ChosenCase::kNone);
   for (const std::size_t start : component) {
     std::vector<std::size_t> row = {start};
@@ -125,7 +125,7 @@ std::string Growth::name_cycle(const Rules& component, bool required_only) const
   return "";
 }
 
-void Growth::check_cycle(const Rules& component) {
+void GrowthCheck::check_cycle(const Rules& component) {
   if (!has_cycle(component)) return;
   const double required = spectral_radius(component, true);
   const double all = required >= kCritical ? required : spectral_radius(component, false);
@@ -142,7 +142,7 @@ void Growth::check_cycle(const Rules& component) {
                   : "lower the probabilities, or add a guard, `rule NAME when depth < N`, or a `limit`");
 }
 
-void Growth::run() {
+void GrowthCheck::run() {
   std::vector<char> left_out(context_.decls().size(), false);
   for (std::size_t i = 0; i < left_out.size(); ++i) {
     const Decl& decl = context_.decls()[i];
@@ -162,6 +162,6 @@ void Growth::run() {
   if (!context_.diagnostics.has_errors()) check_size();
 }
 
-void check_growth(CheckContext& context) { Growth(context).run(); }
+void check_growth(CheckContext& context) { GrowthCheck(context).run(); }
 
 }  // namespace espalier

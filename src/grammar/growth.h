@@ -1,5 +1,5 @@
 #pragma once
-// Growth: how many children the rules of a grammar are expected to have, and what follows: derivations that never end,
+// GrowthCheck: how many children the rules of a grammar are expected to have, and what follows: derivations that never end,
 // and derivations that become too large. Private to the checker.
 
 #include <map>
@@ -12,9 +12,9 @@
 
 namespace espalier {
 
-class Growth {
+class GrowthCheck {
  public:
-  explicit Growth(CheckContext& context) : context_(context), samples_(context) {}
+  explicit GrowthCheck(CheckContext& context) : context_(context), samples_(context) {}
 
   void run();
 

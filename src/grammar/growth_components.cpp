@@ -74,7 +74,7 @@ class ComponentFinder {
 
 }  // namespace
 
-std::vector<Growth::Rules> Growth::components(const std::vector<char>& left_out) const {
+std::vector<GrowthCheck::Rules> GrowthCheck::components(const std::vector<char>& left_out) const {
   return ComponentFinder(context_, left_out).run();
 }
 

@@ -12,11 +12,11 @@ namespace espalier {
 using ast::Stmt;
 using ast::StmtKind;
 
-bool Growth::ends(const ast::Block& block) const {
+bool GrowthCheck::ends(const ast::Block& block) const {
   return std::all_of(block.statements.begin(), block.statements.end(), [&](const ast::StmtPtr& s) { return ends(*s); });
 }
 
-bool Growth::ends(const Stmt& stmt) const {
+bool GrowthCheck::ends(const Stmt& stmt) const {
   const StaticScope scope{context_.checked, false, {}};
   switch (stmt.kind) {
     case StmtKind::spawn:
@@ -40,7 +40,7 @@ bool Growth::ends(const Stmt& stmt) const {
          std::all_of(stmt.cases.begin(), stmt.cases.end(), [&](const ast::Case& c) { return ends(c.block); });
 }
 
-void Growth::check_end() {
+void GrowthCheck::check_end() {
   const auto& decls = context_.decls();
   std::vector<Rules> parents(decls.size());
   std::vector<std::size_t> open;
@@ -66,7 +66,7 @@ void Growth::check_end() {
 }
 
 /// Follows required children without end from a rule until one comes up again.
-void Growth::report_endless(std::size_t rule, std::vector<char>& reported) {
+void GrowthCheck::report_endless(std::size_t rule, std::vector<char>& reported) {
   Rules way;
   std::size_t at = rule;
   while (!reported[at]) {

@@ -35,7 +35,7 @@ Counts counts_below(const DepthSamples& samples, const Counts& counts, const std
 
 }  // namespace
 
-void Growth::check_size() {
+void GrowthCheck::check_size() {
   const auto& decls = context_.decls();
   std::vector<double> of_rule(decls.size(), 0);
   Generation generation;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/version.h"
+#include "derivation/adapt.h"
 #include "derivation/encode.h"
 #include "io/file.h"
 #include "run/model_files.h"
@@ -24,9 +25,15 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostDerivationBytes = 1ull << 30;
 
-Derivation load_derivation(const GeneratorGraph& graph, const std::string& path) {
+/// `adapted`: attributes of the grammar were set anew, so what their guards refuse is cut and counted there.
+Derivation load_derivation(const GeneratorGraph& graph, const std::string& path, AdaptedGenes* adapted) {
   try {
-    return decode(graph, read_file(path, kMostDerivationBytes));
+    const std::string text = read_file(path, kMostDerivationBytes);
+    if (!adapted) return decode(graph, text);
+    std::optional<Adapted> fitting = adapt(graph, decode(graph, text, 4'000'000, Fit::adaptable));
+    if (!fitting) throw Error("nothing of the derivation can stand with these attributes");
+    *adapted = {fitting->cut, fitting->grown};
+    return std::move(fitting->derivation);
   } catch (const Error& error) {
     const std::string message = error.what();
     throw Error(message.starts_with(path) ? message : path + ": " + message);
@@ -42,22 +49,27 @@ std::optional<Provenance> provenance_of(const std::string& path) {
 }
 
 // Grammar and attributes by the settings that the derivation's provenance holds.
-LoadedGrammar grammar_of(const std::string& path, const Provenance& p) {
+LoadedGrammar grammar_of(const std::string& path, const Provenance& p,
+                         const std::map<std::string, std::string>& attributes) {
+  const auto with = [&](std::map<std::string, std::string> set) {
+    for (const auto& [attribute, value] : attributes) set[attribute] = value;
+    return set;
+  };
   const std::string folder = (fs::absolute(path).parent_path() / p.settings_folder).lexically_normal().string();
   const std::string name = path + " (its settings)";
   if (parse_toml(p.settings, name).find("espalier_sample")) {
     const SampleRequest request = parse_sample_request(p.settings, name, folder);
-    return load_grammar((fs::path(folder) / request.grammar).string(), request.attributes);
+    return load_grammar((fs::path(folder) / request.grammar).string(), with(request.attributes));
   }
   const Scene scene = parse_scene(p.settings, name, folder);
-  return load_grammar((fs::path(folder) / scene.grammar).string(), scene.attributes);
+  return load_grammar((fs::path(folder) / scene.grammar).string(), with(scene.attributes));
 }
 
 // The original's provenance, seen from where the export lies.
 Provenance export_provenance(const ExportRequest& request, const std::optional<Provenance>& original,
                              const LoadedGrammar& grammar, const Derivation& derivation) {
   Provenance p;
-  if (original && request.grammar.empty()) {
+  if (original && request.grammar.empty() && request.attributes.empty()) {
     p = *original;
     const fs::path folder = fs::weakly_canonical(fs::absolute(request.derivation).parent_path() / p.settings_folder);
     const fs::path from = fs::weakly_canonical(fs::absolute(request.out).parent_path());
@@ -73,14 +85,15 @@ Provenance export_provenance(const ExportRequest& request, const std::optional<P
 
 }  // namespace
 
-Explanation score_derivation(const Scene& scene, const std::string& derivation_path, MeshSource& source) {
+Explanation score_derivation(const Scene& scene, const std::string& derivation_path, MeshSource& source,
+                             AdaptedGenes* adapted) {
   const std::unique_ptr<Setup> setup = set_up(scene, source);
-  const Derivation derivation = load_derivation(setup->graph(), derivation_path);
+  const Derivation derivation = load_derivation(setup->graph(), derivation_path, adapted);
   const std::unique_ptr<Executor> executor = make_serial_executor();
   return SceneScorer(setup->graph(), setup->objective, *executor).explain(derivation);
 }
 
-void export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor) {
+AdaptedGenes export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor) {
   if (request.out.ends_with(".json") || request.out.ends_with(".png")) {
     throw Error(fmt::format("{}: export writes .glb, .obj, .ply or .stl", request.out));
   }
@@ -90,13 +103,16 @@ void export_derivation(const ExportRequest& request, MeshSource& source, Executo
     throw Error(
         fmt::format("{}: does not say which grammar it belongs to; name it with --grammar", request.derivation));
   }
-  const LoadedGrammar grammar = request.grammar.empty() ? grammar_of(request.derivation, *original)
+  const LoadedGrammar grammar = request.grammar.empty() ? grammar_of(request.derivation, *original, request.attributes)
                                                         : load_grammar(request.grammar, request.attributes);
-  const Derivation derivation = load_derivation(*grammar.graph, request.derivation);
+  AdaptedGenes adapted;
+  const Derivation derivation =
+      load_derivation(*grammar.graph, request.derivation, request.attributes.empty() ? nullptr : &adapted);
   const MeshTable meshes = load_meshes(grammar, source);
   const std::vector<Mesh> no_ghosts;
   ModelFiles files(*grammar.graph, meshes, no_ghosts, {1200, 900}, executor);
   files.write(derivation, request.out, export_provenance(request, original, grammar, derivation));
+  return adapted;
 }
 
 }  // namespace espalier

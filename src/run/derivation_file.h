@@ -11,16 +11,23 @@
 
 namespace espalier {
 
-/// The score of a derivation file in a scene, taken apart. Throws Error.
-Explanation score_derivation(const Scene& scene, const std::string& derivation_path, MeshSource& source);
+/// What setting attributes anew did to a derivation (derivation/adapt.h).
+struct AdaptedGenes {
+  std::uint32_t cut = 0, grown = 0;
+};
+
+/// The score of a derivation file in a scene, taken apart. A derivation made with other attributes is an error, unless
+/// `adapted` is given: then it is adapted to those of the scene. Throws Error.
+Explanation score_derivation(const Scene& scene, const std::string& derivation_path, MeshSource& source,
+                             AdaptedGenes* adapted = nullptr);
 
 struct ExportRequest {
   std::string derivation;                         // path of a .derivation.json
   std::string grammar;                            // path; empty: the copy in the folder of its run
-  std::map<std::string, std::string> attributes;  // with `grammar` only
+  std::map<std::string, std::string> attributes;  // set anew; the derivation is adapted to them
   std::string out;                                // .glb .obj .ply .stl
 };
 /// Writes the model of a derivation. Throws Error.
-void export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor);
+AdaptedGenes export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor);
 
 }  // namespace espalier

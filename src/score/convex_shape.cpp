@@ -28,7 +28,7 @@ void clip_half_space(double nz, double rest, double& low, double& high) {
 
 }  // namespace
 
-bool aligned_box(const Lattice& lattice, const Placement& placement, Reach& reach, bool& covers) {
+bool aligned_box(const Lattice& lattice, const GridPlacement& placement, Reach& reach, bool& covers) {
   double half[3];
   int along[3];
   for (int i = 0; i < 3; ++i) {
@@ -44,7 +44,7 @@ bool aligned_box(const Lattice& lattice, const Placement& placement, Reach& reac
   return true;
 }
 
-bool ConvexShape::invert(const Placement& placement, const Solid& solid) {
+bool ConvexShape::invert(const GridPlacement& placement, const Solid& solid) {
   const auto& m = placement.m;
   double det = 0;
   for (int j = 0; j < 3; ++j) {
@@ -68,7 +68,7 @@ bool ConvexShape::invert(const Placement& placement, const Solid& solid) {
   return true;
 }
 
-void ConvexShape::set_extent(const Solid& solid, const Placement& placement, double top) {
+void ConvexShape::set_extent(const Solid& solid, const GridPlacement& placement, double top) {
   double centre[3];
   for (int i = 0; i < 3; ++i) {
     const double* m = placement.m[i];
@@ -116,7 +116,7 @@ void ConvexShape::set_planes(const Solid& solid, double top) {
   }
 }
 
-bool ConvexShape::set(const Lattice& lattice, const Solid& solid, const Placement& placement, float instance_top) {
+bool ConvexShape::set(const Lattice& lattice, const Solid& solid, const GridPlacement& placement, float instance_top) {
   kind = solid.kind;
   planes.clear();
   double top = 1;

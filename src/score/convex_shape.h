@@ -24,7 +24,7 @@ struct ConvexShape {
   int slab_row[3] = {0, 1, 2};
 
   /// Places a solid of any kind but nothing and facets. False: it covers nothing.
-  bool set(const Lattice& lattice, const Solid& solid, const Placement& placement, float top);
+  bool set(const Lattice& lattice, const Solid& solid, const GridPlacement& placement, float top);
 
   /// The interval of z (relative to origin) inside the shape above (x, y), relative too; empty if low >= high.
   void column(double x, double y, double& low, double& high) const;
@@ -33,8 +33,8 @@ struct ConvexShape {
   bool fills_reach() const;
 
  private:
-  bool invert(const Placement& placement, const Solid& solid);
-  void set_extent(const Solid& solid, const Placement& placement, double top);
+  bool invert(const GridPlacement& placement, const Solid& solid);
+  void set_extent(const Solid& solid, const GridPlacement& placement, double top);
   void set_origin(const Lattice& lattice, const double centre[3]);
   void set_planes(const Solid& solid, double top);
   void clip_to_sphere(double x, double y, double& low, double& high) const;
@@ -43,6 +43,6 @@ struct ConvexShape {
 
 /// If the part is a box with faces along the lattice (to 1e-5 of a cell): its lattice points. `covers` is false where
 /// it is thinner than a millionth of a cell.
-bool aligned_box(const Lattice& lattice, const Placement& placement, Reach& reach, bool& covers);
+bool aligned_box(const Lattice& lattice, const GridPlacement& placement, Reach& reach, bool& covers);
 
 }  // namespace espalier

@@ -5,7 +5,7 @@
 
 namespace espalier {
 
-bool FacetScan::begin(const Mesh& mesh, const Placement& placement, const std::int32_t low[3],
+bool FacetScan::begin(const Mesh& mesh, const GridPlacement& placement, const std::int32_t low[3],
                       const std::int32_t high[3]) {
   position_.clear();
   facets_.clear();

@@ -14,7 +14,7 @@ namespace espalier {
 class FacetScan {
  public:
   /// Places the mesh; false if it reaches no lattice point of the window [low, high).
-  bool begin(const Mesh& mesh, const Placement& placement, const std::int32_t low[3], const std::int32_t high[3]);
+  bool begin(const Mesh& mesh, const GridPlacement& placement, const std::int32_t low[3], const std::int32_t high[3]);
 
   /// The lattice points that the mesh may cover, clipped to the window.
   const Reach& reach() const { return reach_; }

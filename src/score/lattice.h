@@ -30,7 +30,7 @@ struct Lattice {
 };
 
 /// A mesh space seen from the lattice: lattice = m * mesh + o, rows are lattice axes.
-struct Placement {
+struct GridPlacement {
   double m[3][3];
   double o[3];
 
@@ -43,7 +43,7 @@ struct Placement {
 inline constexpr double kFarthest = 1e30;
 
 /// False if the frame is not finite or beyond kFarthest.
-inline bool place(const Lattice& lattice, const Frame& model_from_mesh, Placement& placement) {
+inline bool place(const Lattice& lattice, const Frame& model_from_mesh, GridPlacement& placement) {
   double most = 0;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {

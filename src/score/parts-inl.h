@@ -100,7 +100,7 @@ HWY_INLINE void draw_scanned(const std::uint32_t* bits, const FacetScan& scan, s
   canvas.outside += all - in_grid;
 }
 
-HWY_NOINLINE void draw_facets(const Solid& solid, const Placement& placement, VolumeScratch& scratch) {
+HWY_NOINLINE void draw_facets(const Solid& solid, const GridPlacement& placement, VolumeScratch& scratch) {
   FacetScan& scan = scratch.scan;
   VoxelCanvas& canvas = scratch.canvas;
   if (!scan.begin(solid.mesh, placement, canvas.lattice.low, canvas.lattice.high)) return;
@@ -117,7 +117,7 @@ HWY_NOINLINE void draw_facets(const Solid& solid, const Placement& placement, Vo
 }
 
 /// A convex part on its own, with all the care that it may need.
-HWY_NOINLINE void draw_convex(const Solid& solid, const Instance& instance, const Placement& placement,
+HWY_NOINLINE void draw_convex(const Solid& solid, const Instance& instance, const GridPlacement& placement,
                               VolumeScratch& scratch) {
   if (!scratch.shape.set(scratch.canvas.lattice, solid, placement, instance.top)) return;
   if (scratch.form.set(scratch.shape)) draw(scratch.form, scratch.canvas);
@@ -191,7 +191,7 @@ HWY_NOINLINE void draw_batch(Waiting& waiting, const Solid& solid, VolumeScratch
       if (!batch.empty(lane)) draw_lane(batch, lane, solid.kind, canvas);
       continue;
     }
-    Placement placement;
+    GridPlacement placement;
     if (place(canvas.lattice, waiting.part[lane]->model_from_mesh, placement)) {
       draw_convex(solid, *waiting.part[lane], placement, scratch);
     }
@@ -201,7 +201,7 @@ HWY_NOINLINE void draw_batch(Waiting& waiting, const Solid& solid, VolumeScratch
 
 /// True if the part is a box along the axes, which is then drawn.
 HWY_INLINE bool draw_aligned(const Instance& instance, VoxelCanvas& canvas) {
-  Placement placement;
+  GridPlacement placement;
   if (!place(canvas.lattice, instance.model_from_mesh, placement)) return true;
   Reach reach;
   bool covers;
@@ -238,7 +238,7 @@ HWY_INLINE void draw_parts(const std::vector<Solid>& solids, std::span<const Ins
       if (waiting[slot].count == 4) draw_batch(waiting[slot], solid, scratch);
       continue;
     }
-    Placement placement;
+    GridPlacement placement;
     if (!place(scratch.canvas.lattice, instance.model_from_mesh, placement)) continue;
     if (solid.kind == SolidKind::facets) draw_facets(solid, placement, scratch);
     else draw_convex(solid, instance, placement, scratch);

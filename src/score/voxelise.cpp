@@ -10,7 +10,7 @@ namespace {
 /// Parity along axis `along`; the grid's axes are turned so that it becomes z.
 BitGrid scan_along(const Mesh& mesh, const Lattice& lattice, int along) {
   const int axis[3] = {(along + 1) % 3, (along + 2) % 3, along};
-  Placement placement{};
+  GridPlacement placement{};
   std::int32_t low[3] = {0, 0, 0}, high[3];
   for (int i = 0; i < 3; ++i) {
     const int k = axis[i];

@@ -57,6 +57,27 @@ TEST(Layers, EveryIncludeFollowsTheArrows) {
   EXPECT_GT(checked, 100);
 }
 
+// Two types of one name in one namespace are undefined behaviour that no compiler or linker reports.
+TEST(Layers, EveryTypeHasOneHeader) {
+  const std::regex definition("^(?:class|struct|enum class) ([A-Za-z0-9_]+)[^;]*\\{");
+  const std::regex opens("^namespace ([A-Za-z0-9_:]+) \\{");
+  std::map<std::string, fs::path> home;
+  for (const auto& entry : fs::recursive_directory_iterator(kSource)) {
+    if (entry.path().extension() != ".h") continue;
+    std::ifstream file(entry.path());
+    std::smatch match;
+    std::string space;
+    for (std::string line; std::getline(file, line);) {
+      if (std::regex_search(line, match, opens)) space += std::string(match[1]) + "::";
+      if (!std::regex_search(line, match, definition)) continue;
+      const auto [it, fresh] = home.try_emplace(space + std::string(match[1]), entry.path());
+      EXPECT_TRUE(fresh || it->second == entry.path())
+          << it->first << " is defined in " << it->second << " and in " << entry.path();
+    }
+  }
+  EXPECT_GT(home.size(), 100u);
+}
+
 TEST(Layers, AreADag) {
   const Layers layers = read_layers();
   std::set<std::string> done;

@@ -79,9 +79,9 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-std::string error_of(const std::string& text, bool other = false, std::uint32_t most = 100) {
+std::string error_of(const std::string& text, Fit fit = Fit::same_grammar, std::uint32_t most = 100) {
   try {
-    decode(small(), text, most, other);
+    decode(small(), text, most, fit);
     return "";
   } catch (const Error& error) {
     return error.what();
@@ -95,10 +95,10 @@ TEST(Decode, RefusesAnotherGrammarUnlessAsked) {
   EXPECT_EQ(error_of(other),
             "derivation: grammar_hash: made by \"hash of tall \"quoted\"\", but the grammar at hand is \"hash of small "
             "\"quoted\"\"");
-  EXPECT_EQ(error_of(other, true), "");
+  EXPECT_EQ(error_of(other, Fit::valid), "");
   const std::string renamed = replaced(kText, "\"small", "\"big");
   EXPECT_NE(error_of(renamed), "");
-  EXPECT_EQ(error_of(renamed, true), "");
+  EXPECT_EQ(error_of(renamed, Fit::valid), "");
 }
 
 TEST(Decode, NamesWhatIsWrongInTheDocument) {
@@ -117,7 +117,7 @@ TEST(Decode, NamesWhatIsWrongInTheDocument) {
   EXPECT_EQ(error_of("3"), "derivation: document: 3 is not expected here");
   EXPECT_EQ(error_of("").substr(0, 39), "derivation: document: not JSON at byte ");
   EXPECT_EQ(error_of(kText + "x").substr(0, 39), "derivation: document: not JSON at byte ");
-  EXPECT_EQ(error_of(kText, false, 2), "derivation: gene 2 (?): more than 2 genes");
+  EXPECT_EQ(error_of(kText, Fit::same_grammar, 2), "derivation: gene 2 (?): more than 2 genes");
   EXPECT_EQ(error_after("\"genes\": [", "\"genes\": [], \"provenance\": ["),
             "derivation: provenance: an array is not expected here");
 }
