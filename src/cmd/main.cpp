@@ -22,6 +22,8 @@ constexpr const char* kExamples = R"(Examples:
   espalier inspect out/ship/best.png
   espalier reproduce out/ship/best.glb
   espalier export out/ship/best.derivation.json -o ship.stl
+  espalier graph grammars/spaceship.esp -o spaceship.svg
+  espalier explain grammars/spaceship.esp
 
 Exit codes: 0 done, 1 a comparison failed or there is no result, 2 bad input.)";
 
@@ -34,6 +36,8 @@ struct CommandLine {
   InspectOptions inspect;
   ReproduceOptions reproduce;
   ExportVerbOptions export_;
+  GraphOptions graph;
+  ExplainOptions explain;
   std::function<int()> verb;
 };
 
@@ -132,6 +136,27 @@ void declare_file_verbs(CLI::App& app, CommandLine& line) {
   exporting->callback([&line] { line.verb = [&line] { return export_verb(line.export_); }; });
 }
 
+void declare_graph(CLI::App& app, CommandLine& line) {
+  CLI::App* verb = app.add_subcommand("graph", "Draw a grammar's generator graph, or a derivation's tree, as SVG");
+  GraphOptions& o = line.graph;
+  verb->add_option("file", o.file, "Grammar file (.esp) or .derivation.json")->required();
+  verb->add_option("--grammar", o.grammar, "Grammar of a derivation, if it is not in a run's folder");
+  declare_attributes(verb, o.attributes);
+  verb->add_option("-o,--out", o.out, "File to write: .svg (standard output)");
+  verb->callback([&line] { line.verb = [&line] { return graph_verb(line.graph); }; });
+}
+
+void declare_explain(CLI::App& app, CommandLine& line) {
+  CLI::App* verb = app.add_subcommand("explain", "Say what a grammar can make, how large and how likely");
+  ExplainOptions& o = line.explain;
+  verb->add_option("grammar", o.grammar, "Grammar file (.esp)")->required();
+  declare_attributes(verb, o.attributes);
+  verb->add_option("--samples", o.samples, "Models to draw, 1 to 100000 (1000)")->check(CLI::Range(1, 100'000));
+  verb->add_option("--seed", o.seed, "Seed (1)")->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
+  verb->add_flag("--json", o.json, "As JSON");
+  verb->callback([&line] { line.verb = [&line] { return explain_verb(line.explain); }; });
+}
+
 int main_verb(int argc, char** argv) {
   CLI::App app("Espalier: grammars that grow towards what you want.", "espalier");
   app.set_version_flag("--version", fmt::format("espalier {}", kVersion));
@@ -143,6 +168,8 @@ int main_verb(int argc, char** argv) {
   declare_run(app, line);
   declare_score(app, line);
   declare_file_verbs(app, line);
+  declare_graph(app, line);
+  declare_explain(app, line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -61,4 +61,19 @@ struct ExportVerbOptions {
   std::vector<std::string> attributes;
 };
 
+struct GraphOptions {
+  std::string file;                     // a grammar, or a .derivation.json
+  std::string grammar;                  // of a derivation; empty: the copy in its run's folder
+  std::vector<std::string> attributes;
+  std::string out;                      // .svg; empty: standard output
+};
+
+struct ExplainOptions {
+  std::string grammar;
+  std::vector<std::string> attributes;
+  std::uint32_t samples = 1000;
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
 }  // namespace espalier

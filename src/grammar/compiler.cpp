@@ -190,9 +190,10 @@ CompileResult compile_grammar(const GrammarSource& source) {
   result.sources.push_back({source.path, source.text});
   ast::Grammar ast = parse_with_imports(result.sources, source.read_import, result.diagnostics);
   if (result.diagnostics.has_errors()) return result;
-  const auto checked = check(std::move(ast), source.attributes, result.diagnostics);
+  auto checked = check(std::move(ast), source.attributes, result.diagnostics);
   if (!checked || result.diagnostics.has_errors()) return result;
-  result.graph = GraphCompiler(*checked, hash_of(source, result.sources), result.diagnostics).compile();
+  result.checked = std::make_shared<const CheckedGrammar>(std::move(*checked));
+  result.graph = GraphCompiler(*result.checked, hash_of(source, result.sources), result.diagnostics).compile();
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/diagnostic.h"
+#include "grammar/checked.h"
 #include "grammar/graph.h"
 #include "grammar/imports.h"
 
@@ -20,6 +21,7 @@ struct GrammarSource {
 
 struct CompileResult {
   std::shared_ptr<const GeneratorGraph> graph;  // null when there are errors
+  std::shared_ptr<const CheckedGrammar> checked;  // what the graph was made of
   Diagnostics diagnostics;
   /// The grammar, then what it imports: by SourceSpan::file.
   std::vector<SourceText> sources;

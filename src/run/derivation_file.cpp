@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMostDerivationBytes = 1ull << 30;
 
 /// `adapted`: attributes of the grammar were set anew, so what their guards refuse is cut and counted there.
-Derivation load_derivation(const GeneratorGraph& graph, const std::string& path, AdaptedGenes* adapted) {
+Derivation read_derivation(const GeneratorGraph& graph, const std::string& path, AdaptedGenes* adapted) {
   try {
     const std::string text = read_file(path, kMostDerivationBytes);
     if (!adapted) return decode(graph, text);
@@ -75,7 +75,8 @@ Provenance export_provenance(const ExportRequest& request, const std::optional<P
     const fs::path from = fs::weakly_canonical(fs::absolute(request.out).parent_path());
     p.settings_folder = folder.lexically_relative(from).generic_string();
   } else {
-    p.inputs[fs::path(grammar.path).filename().string()] = content_hash(grammar.text);
+    for (const SourceText& source : grammar.sources)
+      p.inputs[fs::path(source.name).filename().string()] = content_hash(source.text);
   }
   p.version = kVersion;
   p.made_by = "export";
@@ -88,9 +89,27 @@ Provenance export_provenance(const ExportRequest& request, const std::optional<P
 Explanation score_derivation(const Scene& scene, const std::string& derivation_path, MeshSource& source,
                              AdaptedGenes* adapted) {
   const std::unique_ptr<Setup> setup = set_up(scene, source);
-  const Derivation derivation = load_derivation(setup->graph(), derivation_path, adapted);
+  const Derivation derivation = read_derivation(setup->graph(), derivation_path, adapted);
   const std::unique_ptr<Executor> executor = make_serial_executor();
   return SceneScorer(setup->graph(), setup->objective, *executor).explain(derivation);
+}
+
+LoadedDerivation load_derivation(const std::string& path, const std::string& grammar,
+                                 const std::map<std::string, std::string>& attributes) {
+  LoadedDerivation loaded;
+  if (grammar.empty()) {
+    const std::optional<Provenance> provenance = provenance_of(path);
+    if (!provenance || provenance->settings.empty()) {
+      read_file(path, kMostDerivationBytes);  // a missing file is named as such
+      throw Error(fmt::format("{}: does not say which grammar it belongs to; name it with --grammar", path));
+    }
+    loaded.grammar = grammar_of(path, *provenance, attributes);
+  } else {
+    loaded.grammar = load_grammar(grammar, attributes);
+  }
+  loaded.derivation =
+      read_derivation(*loaded.grammar.graph, path, attributes.empty() ? nullptr : &loaded.adapted);
+  return loaded;
 }
 
 AdaptedGenes export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor) {
@@ -98,16 +117,8 @@ AdaptedGenes export_derivation(const ExportRequest& request, MeshSource& source,
     throw Error(fmt::format("{}: export writes .glb, .obj, .ply or .stl", request.out));
   }
   const std::optional<Provenance> original = provenance_of(request.derivation);
-  if (request.grammar.empty() && (!original || original->settings.empty())) {
-    read_file(request.derivation, kMostDerivationBytes);  // a missing file is named as such
-    throw Error(
-        fmt::format("{}: does not say which grammar it belongs to; name it with --grammar", request.derivation));
-  }
-  const LoadedGrammar grammar = request.grammar.empty() ? grammar_of(request.derivation, *original, request.attributes)
-                                                        : load_grammar(request.grammar, request.attributes);
-  AdaptedGenes adapted;
-  const Derivation derivation =
-      load_derivation(*grammar.graph, request.derivation, request.attributes.empty() ? nullptr : &adapted);
+  const auto [grammar, derivation, adapted] =
+      load_derivation(request.derivation, request.grammar, request.attributes);
   const MeshTable meshes = load_meshes(grammar, source);
   const std::vector<Mesh> no_ghosts;
   ModelFiles files(*grammar.graph, meshes, no_ghosts, {1200, 900}, executor);

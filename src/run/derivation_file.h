@@ -5,7 +5,9 @@
 #include <string>
 
 #include "base/executor.h"
+#include "derivation/derivation.h"
 #include "model/mesh_source.h"
+#include "run/grammar_file.h"
 #include "run/scene.h"
 #include "score/target.h"
 
@@ -20,6 +22,16 @@ struct AdaptedGenes {
 /// `adapted` is given: then it is adapted to those of the scene. Throws Error.
 Explanation score_derivation(const Scene& scene, const std::string& derivation_path, MeshSource& source,
                              AdaptedGenes* adapted = nullptr);
+
+struct LoadedDerivation {
+  LoadedGrammar grammar;
+  Derivation derivation;
+  AdaptedGenes adapted;
+};
+/// A derivation and its grammar: the file named by `grammar`, or (where that is empty) the copy in the folder of the
+/// derivation's run. The derivation is adapted to `attributes`, if any are set anew. Throws Error.
+LoadedDerivation load_derivation(const std::string& path, const std::string& grammar,
+                                 const std::map<std::string, std::string>& attributes);
 
 struct ExportRequest {
   std::string derivation;                         // path of a .derivation.json

@@ -1,7 +1,6 @@
 #include "run/grammar_file.h"
 
 #include <filesystem>
-#include <iterator>
 
 #include "base/error.h"
 #include "io/file.h"
@@ -20,14 +19,13 @@ LoadedGrammar load_grammar(const std::string& path, const std::map<std::string, 
   CompileResult result = compile_grammar_file(path, attributes);
   std::string report;
   if (!result.diagnostics.items().empty()) report = render(result.diagnostics, result.sources);
-  grammar.text = std::move(result.sources[0].text);
-  grammar.imports.assign(std::make_move_iterator(result.sources.begin() + 1),
-                         std::make_move_iterator(result.sources.end()));
   if (!result.graph) {
     while (report.ends_with('\n')) report.pop_back();
     throw Error(report.empty() ? path + ": the grammar does not compile" : report);
   }
   grammar.warnings = report;
+  grammar.sources = std::move(result.sources);
+  grammar.checked = result.checked;
   grammar.graph = result.graph;
   return grammar;
 }

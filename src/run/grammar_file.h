@@ -14,8 +14,9 @@ namespace espalier {
 inline constexpr std::uint64_t kMostGrammarBytes = 16ull << 20;
 
 struct LoadedGrammar {
-  std::string path, text;
-  std::vector<SourceText> imports;  // named by path
+  std::string path;
+  std::vector<SourceText> sources;  // the grammar, then what it imports, named by path
+  std::shared_ptr<const CheckedGrammar> checked;
   std::shared_ptr<const GeneratorGraph> graph;
   std::string warnings;  // rendered diagnostics; empty if there are none
 };

@@ -58,8 +58,10 @@ void InputFiles::add_grammar(const LoadedGrammar& grammar) {
   const auto name_for = [&](const fs::path& file) {
     return (fs::path("inputs") / file.lexically_normal().lexically_relative(root)).generic_string();
   };
-  grammar_name_ = add(name_for(path), grammar.text);
-  for (const SourceText& import : grammar.imports) add(name_for(fs::absolute(import.name)), import.text);
+  for (const SourceText& source : grammar.sources) {
+    const std::string name = add(name_for(fs::absolute(source.name)), source.text);
+    if (grammar_name_.empty()) grammar_name_ = name;
+  }
   for (const MeshRef& mesh : grammar.graph->meshes) {
     if (mesh.kind != MeshKind::file) continue;
     const fs::path file = path.parent_path() / mesh.path;

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "test_graph.h"
+#include "base/random.h"
+#include "derivation/test_graph.h"
 
 namespace espalier::test {
 
