@@ -149,6 +149,7 @@ void SampleSet::write_sheet(const std::string& path) {
   for (std::size_t i = 0; i < size(); ++i) {
     cells.push_back({files_->picture(derivations_[i], request_.cell),
                      fmt::format("{}  {} genes", i + 1, derivations_[i].size())});
+    if (files_->model().truncated) warnings_.push_back(fmt::format("sample {} is {}", i + 1, kTruncated));
   }
   const Picture sheet = contact_sheet(cells, fmt::format("{}, seed {}", grammar_.graph->name, request_.seed),
                                       request_.columns);

@@ -120,6 +120,24 @@ TEST(Sample, TheSheetHasTheColumnsAndCellsAskedFor) {
   EXPECT_GT(size("column/samples.png")[1], 450u);
 }
 
+TEST(Sample, SaysWhichModelsAreNotWhole) {
+  const TemporaryFolder folder;
+  write_pile(folder);
+  testing::write_text(folder / "endless.esp", R"(grammar endless 1
+start S
+rule S { few ~ chance(0.5)  emit box  if few { emit box } else { detail D } }
+detail D { for i in 0..9999 { for k in 0..9999 { if k < 0 { emit box } } } }
+)");
+  SampleRequest request = request_in(folder);
+  request.grammar = "endless.esp", request.count = 6;
+  AssimpMeshSource source;
+  const auto warnings = write_samples(request, folder / "out", source, *make_serial_executor());
+  EXPECT_TRUE(!warnings.empty() && warnings.size() < 6) << warnings.size();
+  for (const std::string& warning : warnings) EXPECT_THAT(warning, ::testing::HasSubstr("is truncated"));
+  request.grammar = "pile.esp";
+  EXPECT_TRUE(write_samples(request, folder / "whole", source, *make_serial_executor()).empty());
+}
+
 TEST(Sample, AttributesShapeTheModels) {
   const TemporaryFolder folder;
   write_pile(folder);
