@@ -15,6 +15,7 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   espalier check grammars/spaceship.esp
+  espalier fmt --check grammars/*.esp
   espalier sample grammars/spaceship.esp -n 16 --seed 3 --out out/ships
   espalier run scenes/spaceship.toml --time 10 --out out/ship
   espalier run scenes/spaceship.toml --evaluations 20000 --set search.population=200
@@ -30,6 +31,8 @@ Exit codes: 0 done, 1 a comparison failed or there is no result, 2 bad input.)";
 /// All verbs' options, and which verb was asked for.
 struct CommandLine {
   CheckOptions check;
+  FormatOptions format;
+  ImportOptions import_;
   SampleOptions sample;
   RunVerbOptions run;
   ScoreOptions score;
@@ -63,6 +66,24 @@ void declare_check(CLI::App& app, CommandLine& line) {
   declare_attributes(verb, o.attributes);
   verb->add_flag("--json", o.json, "Diagnostics as JSON");
   verb->callback([&line] { line.verb = [&line] { return check_verb(line.check); }; });
+}
+
+void declare_format(CLI::App& app, CommandLine& line) {
+  CLI::App* verb = app.add_subcommand("fmt", "Put grammars into the layout of the house");
+  FormatOptions& o = line.format;
+  verb->add_option("files", o.files, "Grammar files (.esp), replaced in place; - formats stdin to stdout")->required();
+  verb->add_flag("--check", o.check, "Change nothing; list the files that would change and exit with 1");
+  verb->add_flag("--stdout", o.to_stdout, "Write to stdout instead of the files");
+  verb->callback([&line] { line.verb = [&line] { return format_verb(line.format); }; });
+}
+
+void declare_import(CLI::App& app, CommandLine& line) {
+  CLI::App* verb = app.add_subcommand("import", "Write an L-system as a grammar");
+  ImportOptions& o = line.import_;
+  verb->add_option("file", o.file, "L-system (.lsys), see docs/from-lsystems.md")->required();
+  verb->add_option("-o,--out", o.out, "Grammar to write (stdout)");
+  verb->add_option("--iterations", o.iterations, "Rewriting steps, instead of the file's")->check(CLI::Range(1, 40));
+  verb->callback([&line] { line.verb = [&line] { return import_verb(line.import_); }; });
 }
 
 void declare_sample(CLI::App& app, CommandLine& line) {
@@ -164,6 +185,8 @@ int main_verb(int argc, char** argv) {
   app.require_subcommand(1);
   CommandLine line;
   declare_check(app, line);
+  declare_format(app, line);
+  declare_import(app, line);
   declare_sample(app, line);
   declare_run(app, line);
   declare_score(app, line);

@@ -14,6 +14,18 @@ struct CheckOptions {
   bool json = false;
 };
 
+struct FormatOptions {
+  std::vector<std::string> files;  // "-" is standard input
+  bool check = false;              // list what would change, write nothing
+  bool to_stdout = false;
+};
+
+struct ImportOptions {
+  std::string file;
+  std::string out;  // empty or "-": standard output
+  std::optional<int> iterations;
+};
+
 struct SampleOptions {
   std::string grammar;
   std::uint32_t count = 16;

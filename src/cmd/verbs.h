@@ -11,6 +11,8 @@ inline constexpr int kDiffers = 1;
 inline constexpr int kBadInput = 2;
 
 int check_verb(const CheckOptions& options);
+int format_verb(const FormatOptions& options);
+int import_verb(const ImportOptions& options);
 int sample_verb(const SampleOptions& options);
 int run_verb(const RunVerbOptions& options);
 int score_verb(const ScoreOptions& options);

@@ -31,8 +31,8 @@ std::size_t utf8_length(std::string_view text) {
 
 class Lexer {
  public:
-  Lexer(std::string_view source, Diagnostics& diagnostics, std::uint16_t file)
-      : source_(source), diagnostics_(diagnostics), file_(file) {
+  Lexer(std::string_view source, Diagnostics& diagnostics, std::uint16_t file, std::vector<Comment>* comments)
+      : source_(source), diagnostics_(diagnostics), file_(file), comments_(comments) {
     if (source_.starts_with("\xef\xbb\xbf")) line_start_ = at_ = 3;
   }
 
@@ -56,7 +56,7 @@ class Lexer {
   void skip_blanks() {
     for (; at_ < source_.size(); ++at_) {
       const char c = source_[at_];
-      if (c == '#') at_ = std::min(source_.find('\n', at_), source_.size());
+      if (c == '#') skip_comment();
       if (at_ == source_.size()) return;
       if (source_[at_] == '\n') {
         ++line_;
@@ -65,6 +65,17 @@ class Lexer {
         return;
       }
     }
+  }
+
+  void skip_comment() {
+    const std::size_t end = std::min(source_.find('\n', at_), source_.size());
+    if (comments_) {
+      std::string_view text = source_.substr(at_, end - at_);
+      while (text.find_last_of(" \t\r") == text.size() - 1) text.remove_suffix(1);
+      const bool own_line = tokens_.empty() || tokens_.back().span.line != line_;
+      comments_->push_back({text, span(at_, text.size()), own_line, tokens_.size()});
+    }
+    at_ = end;
   }
 
   void scan() {
@@ -195,17 +206,19 @@ class Lexer {
 
   std::string_view source_;
   Diagnostics& diagnostics_;
+  std::uint16_t file_;
+  std::vector<Comment>* comments_;
   std::vector<Token> tokens_;
   std::size_t at_ = 0;
   std::uint32_t line_ = 1;
   std::uint32_t line_start_ = 0;
-  std::uint16_t file_;
 };
 
 }  // namespace
 
-std::vector<Token> tokenize(std::string_view source, Diagnostics& diagnostics, std::uint16_t file) {
-  return Lexer(source, diagnostics, file).run();
+std::vector<Token> tokenize(std::string_view source, Diagnostics& diagnostics, std::uint16_t file,
+                            std::vector<Comment>* comments) {
+  return Lexer(source, diagnostics, file, comments).run();
 }
 
 std::string describe(const Token& token) {

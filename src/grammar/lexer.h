@@ -1,5 +1,6 @@
 #pragma once
-// The lexer: text -> tokens. Comments and white space go; numbers carry their unit.
+// The lexer: text -> tokens. White space goes; comments go too, or into a list of their own for whoever writes the text
+// anew; numbers carry their unit.
 
 #include <cstdint>
 #include <string>
@@ -31,9 +32,19 @@ struct Token {
   }
 };
 
+/// A comment: from `#` to the end of its line, without white space at its end.
+struct Comment {
+  std::string_view text;       // as in the source
+  SourceSpan span;
+  bool own_line = false;       // no token stands before it on its line
+  std::size_t next_token = 0;  // index of the token behind it
+};
+
 /// The tokens of `source`, which they point into. What is no token is reported and left out; after
-/// Diagnostics::kMostErrors of those the rest of the text is not read. `file` goes into their spans.
-std::vector<Token> tokenize(std::string_view source, Diagnostics& diagnostics, std::uint16_t file = 0);
+/// Diagnostics::kMostErrors of those the rest of the text is not read. `file` goes into their spans. The comments go to
+/// `comments`, if given.
+std::vector<Token> tokenize(std::string_view source, Diagnostics& diagnostics, std::uint16_t file = 0,
+                            std::vector<Comment>* comments = nullptr);
 
 /// "`move`", "the number `3`", "the end of the text": for messages.
 std::string describe(const Token& token);

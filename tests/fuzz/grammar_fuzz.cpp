@@ -1,5 +1,5 @@
 // Feeds the parser and the checker with any bytes. Whatever they are, there is a diagnostic or a checked grammar, all
-// diagnostics lie in the text and can be shown, and a second run says the same.
+// diagnostics lie in the text and can be shown, and a second run says the same. What parses can be formatted, once.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +9,7 @@
 
 #include "base/check.h"
 #include "grammar/checker.h"
+#include "grammar/formatter.h"
 #include "grammar/parser.h"
 
 namespace espalier {
@@ -39,5 +40,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view source(reinterpret_cast<const char*>(data), size);
   const espalier::Outcome first = espalier::run(source);
   CHECK(first.report == espalier::run(source).report);
+  espalier::Diagnostics none;
+  if (const auto formatted = espalier::format_grammar(source, none))
+    CHECK(espalier::format_grammar(*formatted, none) == formatted);
   return 0;
 }
