@@ -35,7 +35,7 @@ struct SheetCell {
   std::string caption;  // printable ASCII
 };
 
-/// A contact sheet: equal cells in rows, captions below, as near to 4:3 as the number allows.
-Picture contact_sheet(const std::vector<SheetCell>& cells, const std::string& title);
+/// A contact sheet: equal cells in rows, captions below, in so many columns; 0 = as near to 4:3 as the number allows.
+Picture contact_sheet(const std::vector<SheetCell>& cells, const std::string& title, std::uint32_t columns = 0);
 
 }  // namespace espalier

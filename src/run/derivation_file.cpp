@@ -112,7 +112,7 @@ LoadedDerivation load_derivation(const std::string& path, const std::string& gra
   return loaded;
 }
 
-AdaptedGenes export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor) {
+ExportReport export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor) {
   if (request.out.ends_with(".json") || request.out.ends_with(".png")) {
     throw Error(fmt::format("{}: export writes .glb, .obj, .ply or .stl", request.out));
   }
@@ -123,7 +123,7 @@ AdaptedGenes export_derivation(const ExportRequest& request, MeshSource& source,
   const std::vector<Mesh> no_ghosts;
   ModelFiles files(*grammar.graph, meshes, load_textures(grammar), no_ghosts, {1200, 900}, executor);
   files.write(derivation, request.out, export_provenance(request, original, grammar, derivation));
-  return adapted;
+  return {adapted, files.model().truncated};
 }
 
 }  // namespace espalier

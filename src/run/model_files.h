@@ -13,6 +13,10 @@
 
 namespace espalier {
 
+/// What to say of models whose details did not fit (Model::truncated).
+inline constexpr const char* kTruncated =
+    "truncated: the details ended at 1 000 000 parts and calls, or 16 000 000 turns of loops; the rest is left out";
+
 class ModelFiles {
  public:
   /// All must outlive it. `ghosts`: target meshes shown in pictures; `picture`: width and height.
