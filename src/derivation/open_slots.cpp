@@ -149,7 +149,9 @@ bool Closer::run(LimitLedger ledger, Derivation& out) {
 
 bool makes_something(const Variant& variant) {
   return std::any_of(variant.program.ops.begin(), variant.program.ops.end(),
-                     [](const Op& op) { return op.code == OpCode::emit || op.code == OpCode::bone; });
+                     [](const Op& op) {
+                       return op.code == OpCode::emit || op.code == OpCode::bone || op.code == OpCode::bone_along;
+                     });
 }
 
 bool grow_open_slot(const GeneratorGraph& graph, Derivation& derivation, RandomStream& random) {

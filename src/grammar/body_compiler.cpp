@@ -22,6 +22,8 @@ bool changes_state(const ast::Block& block) {
   });
 }
 
+bool is_zero(const Operand& operand) { return operand.coefficient == 0 && operand.bias == 0; }
+
 }  // namespace
 
 std::uint32_t name_hash(const std::string& text) {
@@ -221,9 +223,19 @@ void BodyCompiler::emit(const ast::Stmt& stmt, const NameScope& scope) {
   tables_.graph.uses_proxies |= stmt.as_proxy;
 }
 
+// Most bones lie along an axis of their frame, often from its origin.
 void BodyCompiler::bone(const ast::Stmt& stmt, const NameScope& scope) {
-  const Register from = builder_.store3(expressions_.compile_vector(*stmt.exprs[0], scope).parts);
-  const Register to = builder_.store3(expressions_.compile_vector(*stmt.exprs[1], scope).parts);
+  const Value a = expressions_.compile_vector(*stmt.exprs[0], scope);
+  const Value b = expressions_.compile_vector(*stmt.exprs[1], scope);
+  const auto none = [&](int axis) { return is_zero(a.parts[axis]) && is_zero(b.parts[axis]); };
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!none((axis + 1) % 3) || !none((axis + 2) % 3)) continue;
+    Op& op = builder_.emit(OpCode::bone_along);
+    op.axis = static_cast<std::uint8_t>(axis);
+    op.x = a.parts[axis], op.y = b.parts[axis];
+    return;
+  }
+  const Register from = builder_.store3(a.parts), to = builder_.store3(b.parts);
   Op& op = builder_.emit(OpCode::bone);
   op.a = from;
   op.b = to;

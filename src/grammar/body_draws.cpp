@@ -8,6 +8,14 @@
 #include "grammar/body_compiler.h"
 
 namespace espalier {
+namespace {
+
+/// What takes 24 bits of a quantile to a value between constants. The power of two is folded in; that is exact.
+Operand folded_range(const Operand& low, const Operand& high) {
+  return {(high.bias - low.bias) * 0x1p-24f, low.bias, kZeroRegister};
+}
+
+}  // namespace
 
 void BodyCompiler::register_draw(const Site& site, const std::string& name, int components, DrawShape shape,
                                  std::uint32_t values) {
@@ -80,6 +88,11 @@ Value BodyCompiler::draw_value(const ast::Stmt& stmt, const NameScope& scope, co
   register_draw(draw_site_, name, value.width(), shape, values);
   const bool fixed = args[0].constant() && args[1].constant();
   if (code == OpCode::draw_uniform && value.kind == Kind::vector && fixed) return draw_vector(args[0], args[1], name);
+  if (code == OpCode::draw_uniform && fixed) {
+    const Operand range = folded_range(args[0].parts[0], args[1].parts[0]);
+    value.parts[0] = draw_component(OpCode::draw_uniform1, range, zero, zero, nullptr, 0, name);
+    return value;
+  }
   for (int i = 0; i < value.width(); ++i) {
     const Operand low = args.size() > 2 ? args[2].parts[i] : zero;
     const Operand* high = args.size() > 3 ? &args[3].parts[i] : nullptr;
@@ -96,8 +109,7 @@ Value BodyCompiler::draw_vector(const Value& low, const Value& high, const std::
   Operand* const operands[] = {&op.x, &op.y, &op.z};
   Value value{Kind::vector, {}, {}};
   for (int i = 0; i < 3; ++i) {
-    // The power of two that makes u of 24 bits of quantile is folded in; that is exact.
-    *operands[i] = {(high.parts[i].bias - low.parts[i].bias) * 0x1p-24f, low.parts[i].bias, kZeroRegister};
+    *operands[i] = folded_range(low.parts[i], high.parts[i]);
     value.parts[i] = register_operand(static_cast<Register>(dst + i));
   }
   if (is_rule() && !finding_shape()) op.a = variant_draws_.at(draw_site_);

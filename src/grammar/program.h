@@ -67,11 +67,13 @@ enum class OpCode : std::uint8_t {
   // Output
   emit,    // mesh x, top y; flags kEmitAsIs, kEmitProxy
   bone,    // from registers a.. to registers b..
+  bone_along,  // from x to y on `axis`
   paint,   // material x
   slot,    // slot a of the variant, with slot code dst; b names it in detail keys; flags kLast: the program ends here
   detail,  // call site a
   // Draws: quantile a of the gene, or in details the one keyed by b
   draw_uniform,     // dst = x + (y - x) u
+  draw_uniform1,    // dst = bias + coefficient * (quantile / 256) of x: one quantile, constant range
   draw_uniform3,    // dst.. = bias + coefficient * (quantile / 256) of x, y, z: three quantiles, constant ranges
   draw_normal,      // mean x, sd y, low z, high in dst
   draw_loguniform,  // x (y / x)^u

@@ -7,7 +7,8 @@ namespace espalier {
 namespace {
 
 bool is_draw(OpCode code) {
-  return code == OpCode::draw_uniform || code == OpCode::draw_uniform3 || code == OpCode::draw_normal ||
+  return code == OpCode::draw_uniform || code == OpCode::draw_uniform1 || code == OpCode::draw_uniform3 ||
+         code == OpCode::draw_normal ||
          code == OpCode::draw_loguniform || code == OpCode::draw_integer;
 }
 

@@ -228,6 +228,9 @@ bool Machine::run(const Program& program, const Derivation* derivation) {
         if (parts_wanted) emit(op, kGene ? Layer::rule : Layer::detail);
         break;
       case OpCode::bone: make_bone(op); break;
+      case OpCode::bone_along:
+        make_bone(state.origin + value(op.x) * state.axis[op.axis], state.origin + value(op.y) * state.axis[op.axis]);
+        break;
       case OpCode::paint: state.material = value(op.x); break;
       case OpCode::slot:
         if (op.flags & kLast && derivation->slots[current_.at.slot + op.a] == SlotState::filled && !broken_scope()) {
@@ -242,6 +245,9 @@ bool Machine::run(const Program& program, const Derivation* derivation) {
         registers_[op.dst] = low + (value(op.y) - low) * quantile<kGene>(op, 0);
         break;
       }
+      case OpCode::draw_uniform1:
+        registers_[op.dst] = op.x.bias + op.x.coefficient * high_bits<kGene>(op, 0);
+        break;
       case OpCode::draw_uniform3:
         registers_[op.dst] = op.x.bias + op.x.coefficient * high_bits<kGene>(op, 0);
         registers_[op.dst + 1] = op.y.bias + op.y.coefficient * high_bits<kGene>(op, 1);

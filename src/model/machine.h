@@ -64,7 +64,6 @@ class Machine {
   Lanes lanes_at(std::uint32_t reg) const {
     return Lanes{registers_[reg], registers_[reg + 1], registers_[reg + 2], 0};
   }
-  Vec3 point(const Lanes& local) const;
   void set_scope(int axis, float size) { registers_[kScopeRegister + axis] = size; }
   /// A size is negative or not a number: nothing is emitted, nor does anything stand below (language.md 29).
   bool broken_scope() const { return !(registers_[0] >= 0 && registers_[1] >= 0 && registers_[2] >= 0); }
@@ -76,6 +75,7 @@ class Machine {
   void enter_face(Face face);
   [[gnu::always_inline]] inline void emit(const Op& op, Layer layer);
   void make_bone(const Op& op);
+  void make_bone(const Lanes& from, const Lanes& to);
   [[gnu::cold]] void make_material(const Program& program, const Op& op);  // material_maker.cpp
   void run_slot(const Program& program, const Op& op, const Derivation& derivation);
   void enter_child(const SlotCode& code, const Op& op);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 
 #include "base/math.h"
 #include "model/machine.h"
@@ -34,11 +36,6 @@ float Machine::draw_normal(const Op& op, float u) const {
   if (!(p > 0 && p < 1)) return u < 0.5f ? low : high;
   const float drawn = mean + sd * inverse_normal_cdf(p);
   return std::min(std::max(drawn, low), high);
-}
-
-Vec3 Machine::point(const Lanes& local) const {
-  const State& s = current_.state;
-  return vec3(s.origin + local[0] * s.axis[0] + local[1] * s.axis[1] + local[2] * s.axis[2]);
 }
 
 void Machine::turn_axis(int axis, float angle) {
@@ -103,14 +100,25 @@ void Machine::enter_face(Face face) {
 }
 
 void Machine::make_bone(const Op& op) {
-  const Vec3 from = point(lanes_at(op.a)), to = point(lanes_at(op.b));
-  if (broken_scope() || !(length(to - from) < INFINITY) || !(length(to) < INFINITY)) {
+  const auto at = [&](std::uint32_t reg) {
+    const State& s = current_.state;
+    return s.origin + registers_[reg] * s.axis[0] + registers_[reg + 1] * s.axis[1] + registers_[reg + 2] * s.axis[2];
+  };
+  make_bone(at(op.a), at(op.b));
+}
+
+void Machine::make_bone(const Lanes& from, const Lanes& to) {
+  // Finite just when both ends are, and their difference is.
+  const Lanes sum = (to - from) + from, zero = sum - sum;
+  if (broken_scope() || !(zero[0] + zero[1] + zero[2] == 0)) {
     ++model->dropped;
     return;
   }
-  Bone& bone = model->bones.emplace_back();  // field by field: a copy would wait for the parts just written
-  bone.from = from;
-  bone.to = to;
+  static_assert(sizeof(Bone) == 32 && offsetof(Bone, to) == 12 && offsetof(Bone, parent) == 24);
+  Bone& bone = model->bones.emplace_back();
+  char* const bytes = reinterpret_cast<char*>(&bone);
+  std::memcpy(bytes, &from, sizeof(Lanes));  // each overwrites the field behind it, which is written next
+  std::memcpy(bytes + 12, &to, sizeof(Lanes));
   bone.parent = current_.state.bone;
   bone.gene = current_.at.gene;
   current_.state.bone = static_cast<std::int32_t>(model->bones.size()) - 1;
