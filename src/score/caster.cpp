@@ -85,7 +85,7 @@ bool set_convex_border(Caster& caster) {
 }
 
 /// The ray in mesh space; false where the frame has no inverse.
-bool to_mesh(const Instance& instance, const Ray& ray, DVec3& origin, DVec3& direction) {
+bool to_mesh(const Instance& instance, const PixelRay& ray, DVec3& origin, DVec3& direction) {
   const Frame& m = instance.model_from_mesh;
   const DVec3 x = wide(m.basis[0]), y = wide(m.basis[1]), z = wide(m.basis[2]);
   const double det = glm::dot(x, glm::cross(y, z));
@@ -138,7 +138,7 @@ bool meets_round(const DVec3& o, const DVec3& d, double top, double least) {
   return false;
 }
 
-bool meets_triangle(const DVec3& a, const DVec3& b, const DVec3& c, const Ray& ray) {
+bool meets_triangle(const DVec3& a, const DVec3& b, const DVec3& c, const PixelRay& ray) {
   const DVec3 e1 = b - a, e2 = c - a, p = glm::cross(ray.direction, e2);
   const double det = glm::dot(e1, p);
   if (det == 0) return false;
@@ -173,7 +173,7 @@ std::vector<Caster> make_casters(const MeshTable& meshes) {
   return casters;
 }
 
-bool meets(const Caster& caster, const Instance& instance, const Ray& ray) {
+bool meets(const Caster& caster, const Instance& instance, const PixelRay& ray) {
   DVec3 o, d;
   const double top = caster.tapered ? std::max(instance.top, 0.0f) : 1.0;
   switch (caster.kind) {

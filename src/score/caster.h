@@ -31,6 +31,6 @@ std::vector<Caster> make_casters(const MeshTable& meshes);
 
 /// The ray meets the placed part at some t >= ray.least. Exact but for rounding in double precision, and slow: each
 /// triangle, or the quadric, is tried.
-bool meets(const Caster& caster, const Instance& instance, const Ray& ray);
+bool meets(const Caster& caster, const Instance& instance, const PixelRay& ray);
 
 }  // namespace espalier

@@ -124,7 +124,7 @@ Projection lamp_shadow(const DVec3& lamp, const ShadowScreen& screen, std::uint3
   return p;
 }
 
-Ray ray_through(const Projection& p, double column, double row) {
+PixelRay ray_through(const Projection& p, double column, double row) {
   const DVec3 x(p.matrix[0][0], p.matrix[0][1], p.matrix[0][2]), y(p.matrix[1][0], p.matrix[1][1], p.matrix[1][2]);
   const DVec3 w(p.matrix[2][0], p.matrix[2][1], p.matrix[2][2]);
   if (w == DVec3(0)) {  // parallel: x . p = column - b, y . p = row - b

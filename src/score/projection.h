@@ -56,10 +56,10 @@ Projection lamp_shadow(const DVec3& lamp, const ShadowScreen& screen, std::uint3
 
 /// The points that fall onto one point of the image: origin + t * direction for t >= least, where W = t (perspective), or
 /// for all t (parallel: least is -infinity).
-struct Ray {
+struct PixelRay {
   DVec3 origin, direction;
   double least;
 };
-Ray ray_through(const Projection& projection, double column, double row);
+PixelRay ray_through(const Projection& projection, double column, double row);
 
 }  // namespace espalier

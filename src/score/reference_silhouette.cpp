@@ -7,7 +7,7 @@ PixelCanvas reference_silhouette(const Projection& projection, const std::vector
   PixelCanvas canvas(projection.width, projection.height);
   for (std::uint32_t row = 0; row < projection.height; ++row) {
     for (std::uint32_t column = 0; column < projection.width; ++column) {
-      const Ray ray = ray_through(projection, column + 0.5, row + 0.5);
+      const PixelRay ray = ray_through(projection, column + 0.5, row + 0.5);
       for (const Instance& instance : instances) {
         if (!(view == VolumeView::full ? in_full(instance) : in_parts(instance))) continue;
         if (!meets(casters[instance.mesh], instance, ray)) continue;

@@ -94,7 +94,7 @@ bool near_an_edge(const Projection& projection, const std::vector<Caster>& caste
                   std::uint32_t column, std::uint32_t row, bool covered, double reach) {
   for (int k = 0; k < 16; ++k) {
     const double angle = k * 0.3926990816987242;
-    const Ray ray = ray_through(projection, column + 0.5 + reach * std::cos(angle), row + 0.5 + reach * std::sin(angle));
+    const PixelRay ray = ray_through(projection, column + 0.5 + reach * std::cos(angle), row + 0.5 + reach * std::sin(angle));
     bool hit = false;
     for (const Instance& p : parts) hit = hit || meets(casters[p.mesh], p, ray);
     if (hit != covered) return true;
