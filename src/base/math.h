@@ -2,7 +2,9 @@
 // Elementary functions whose bits do not depend on the CPU. glibc's double functions take other code paths where the CPU
 // has fused multiply-add; these use only IEEE + - * / and sqrt, or glibc's float functions, which do not.
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace espalier {
 
@@ -15,16 +17,25 @@ inline void sin_cos(float x, float& sine, float& cosine) {
     return;
   }
   const double scaled = x * (2 / kPi);
-  const int quarter = static_cast<int>(scaled + (scaled < 0 ? -0.5 : 0.5));
+  const int quarter = static_cast<int>(scaled + std::copysign(0.5, scaled));
   const double r = x - quarter * (kPi / 2);  // |r| <= pi/4; exact enough: quarter has at most 30 bits
   const double r2 = r * r;
-  // Taylor series, whose remainder is below 2e-9 on this range.
-  const double s = r * (1 + r2 * (-1.0 / 6 + r2 * (1.0 / 120 + r2 * (-1.0 / 5040 + r2 * (1.0 / 362880)))));
-  const double c =
-      1 + r2 * (-0.5 + r2 * (1.0 / 24 + r2 * (-1.0 / 720 + r2 * (1.0 / 40320 + r2 * (-1.0 / 3628800)))));
-  const double a = quarter & 1 ? c : s, b = quarter & 1 ? s : c;
-  sine = static_cast<float>(quarter & 2 ? -a : a);
-  cosine = static_cast<float>((quarter + 1) & 2 ? -b : b);
+  // Taylor series, whose remainder is below 2e-9 on this range: of sin(r) / r and of cos(r) side by side.
+  using Two = double __attribute__((vector_size(16)));
+  const Two square = {r2, r2};
+  Two sum = Two{0, -1.0 / 3628800};
+  sum = Two{1.0 / 362880, 1.0 / 40320} + square * sum;
+  sum = Two{-1.0 / 5040, -1.0 / 720} + square * sum;
+  sum = Two{1.0 / 120, 1.0 / 24} + square * sum;
+  sum = Two{-1.0 / 6, -0.5} + square * sum;
+  sum = Two{1, 1} + square * sum;
+  // Which is which, and the signs, without branches: the quarters of random angles cannot be foretold.
+  const float both[2] = {static_cast<float>(r * sum[0]), static_cast<float>(sum[1])};
+  const auto with_sign = [](float value, int turned) {
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) ^ static_cast<std::uint32_t>(turned & 2) << 30);
+  };
+  sine = with_sign(both[quarter & 1], quarter);
+  cosine = with_sign(both[~quarter & 1], quarter + 1);
 }
 
 inline float sine(float x) {

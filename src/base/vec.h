@@ -2,10 +2,12 @@
 // Vectors and affine frames. Right-handed, y up, column vectors; lengths in metres unless a name says otherwise.
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace espalier {
 
+using Vec2 = glm::vec2;
 using Vec3 = glm::vec3;
 using Mat3 = glm::mat3;  // column-major: m[c] is column c
 

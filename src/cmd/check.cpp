@@ -50,8 +50,10 @@ int check_verb(const CheckOptions& options) {
   AssimpMeshSource source;
   LoadedGrammar grammar;
   grammar.path = options.file;
+  grammar.sources = result.sources;
   grammar.graph = result.graph;
   load_meshes(grammar, source);
+  load_textures(grammar);
   if (!options.json) print_summary(options.file, *result.graph);
   return kDone;
 }

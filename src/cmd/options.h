@@ -30,7 +30,9 @@ struct SampleOptions {
   std::string grammar;
   std::uint32_t count = 16;
   std::uint64_t seed = 1;
-  std::optional<std::uint32_t> grow;
+  std::optional<std::uint32_t> grow, genes;
+  std::vector<std::uint32_t> cell;  // width and height on the sheet; empty: as SampleRequest says
+  std::uint32_t columns = 0;
   std::vector<std::string> attributes;
   std::string out;  // empty: out/NAME-samples
   int threads = 0;

@@ -19,6 +19,9 @@ int sample_verb(const SampleOptions& options) {
   request.count = options.count;
   request.seed = options.seed;
   request.grow = options.grow;
+  request.genes = options.genes;
+  if (!options.cell.empty()) request.cell = {options.cell[0], options.cell[1]};
+  request.columns = options.columns;
   std::string out = options.out;
   if (out.empty()) out = (fs::path("out") / (fs::path(options.grammar).stem().string() + "-samples")).string();
   AssimpMeshSource source;

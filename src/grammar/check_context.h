@@ -41,7 +41,7 @@ struct CheckContext {
   /// Rules and details that a body refers to.
   std::vector<std::vector<std::size_t>> targets{};
   std::vector<char> used{};
-  /// Functions: one more than the place, among the start rule's draws and lets, of the last one that it reads; 0: none.
+  /// Functions and materials: one more than the place, among the start rule's draws and lets, of the last one that it reads; 0: none.
   std::vector<std::size_t> globals_read{};
   /// Functions and consts: whether an attr has a say in the value.
   std::vector<char> reads_attributes{};

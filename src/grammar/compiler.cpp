@@ -1,6 +1,6 @@
 #include "grammar/compiler.h"
 
-#include <filesystem>
+#include <algorithm>
 
 #include <fmt/core.h>
 
@@ -74,6 +74,7 @@ class GraphCompiler {
     const bool wanted = decl.kind == ast::DeclKind::constant || decl.kind == ast::DeclKind::mesh ||
                         decl.kind == ast::DeclKind::material;
     if (!wanted || tables_.globals.find(decl.name)) return;
+    if (decl.kind == ast::DeclKind::material && reads_globals(*decl.value)) return;  // written out where it is used
     bind_names_in(*decl.value);
     ProgramBuilder scratch;
     Value value = ExprCompiler(tables_, scratch).compile(*decl.value, tables_.globals);
@@ -87,6 +88,17 @@ class GraphCompiler {
     tables_.globals.bind(decl.name, value);
   }
 
+  /// Draws and lets of the start rule, through functions too.
+  bool reads_globals(const ast::Expr& expr) const {
+    if (expr.kind == ast::ExprKind::name && grammar_.global_kinds.contains(expr.name)) return true;
+    if (expr.kind == ast::ExprKind::call)
+      if (const ast::Decl* function = grammar_.find(expr.name, ast::DeclKind::function))
+        if (reads_globals(*function->value)) return true;
+    const auto reads = [&](const ast::ExprPtr& part) { return reads_globals(*part); };
+    return std::any_of(expr.children.begin(), expr.children.end(), reads) ||
+           std::any_of(expr.args.begin(), expr.args.end(), [&](const ast::Arg& arg) { return reads(arg.value); });
+  }
+
   void bind_names_in(const ast::Expr& expr) {
     if (expr.kind == ast::ExprKind::name)
       if (const ast::Decl* decl = grammar_.find(expr.name)) bind_declaration(*decl);
@@ -97,7 +109,7 @@ class GraphCompiler {
   Value mesh_file(const ast::Decl& decl, const std::string& path) {
     MeshRef file;
     file.kind = MeshKind::file;
-    file.path = (std::filesystem::path(grammar_.ast.files.at(decl.span.file)).parent_path() / path).generic_string();
+    file.path = tables_.path_from_grammar(path, decl.span);
     file.span = decl.value->span;
     return {Kind::mesh, {constant_operand(tables_.mesh_index(file)), constant_operand(1)}, {}};
   }

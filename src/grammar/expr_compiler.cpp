@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include "grammar/surface_arguments.h"
+
 namespace espalier {
 
 Arithmetic arithmetic_of(ast::Operator op) {
@@ -111,6 +113,9 @@ Value ExprCompiler::name(const ast::Expr& expr, const NameScope& scope) {
   }
   if (const Value* value = scope.find(expr.name)) return *value;
   if (primitive_named(expr.name)) return primitive(expr, scope);
+  // Materials that read the start rule's draws are written out where they are used.
+  if (const ast::Decl* material = tables_.grammar.find(expr.name, ast::DeclKind::material))
+    return surface(*material->value, tables_.globals, material->name);
   problem(expr, fmt::format("'{}' is not known here", expr.name));
   return {};
 }
@@ -139,7 +144,8 @@ Value ExprCompiler::binary(const ast::Expr& expr, const NameScope& scope) {
 
 Value ExprCompiler::call(const ast::Expr& expr, const NameScope& scope) {
   if (primitive_named(expr.name)) return primitive(expr, scope);
-  if (expr.name == "surface") return surface(expr, scope);
+  if (expr.name == "surface") return surface(expr, scope, {});
+  if (texture_named(expr.name) != TextureKind::none) return texture(expr, scope);
   if (expr.name == "depth") {
     const auto index = tables_.counted_index(expr.args[0].value->name);
     return {Kind::number, {register_operand(static_cast<Register>(kFirstDepthOfRegister + index))}, {}};
@@ -249,32 +255,6 @@ Value ExprCompiler::primitive(const ast::Expr& expr, const NameScope& scope) {
     else if (label == "sides") mesh.sides = static_cast<std::uint16_t>(value.number());
   }
   return mesh_value(mesh, top);
-}
-
-Value ExprCompiler::surface(const ast::Expr& expr, const NameScope& scope) {
-  Material material;
-  static const char* const kOrder[] = {"color", "roughness", "metal", "opacity", "glow"};
-  std::size_t position = 0;
-  for (const ast::Arg& arg : expr.args) {
-    const std::string label = arg.label ? arg.label->name : kOrder[std::min<std::size_t>(position, 4)];
-    ++position;
-    const Value value = compile(*arg.value, scope);
-    if (value.kind == Kind::text) {
-      material.name = value.text;
-      if (const auto color = parse_color(value.text)) material.color = *color;
-      else problem(*arg.value, fmt::format("a colour is written \"#rrggbb\", got \"{}\"", value.text));
-      continue;
-    }
-    if (!value.constant()) {
-      problem(*arg.value, fmt::format("{} of a surface must be constant in this version", label));
-      continue;
-    }
-    if (label == "roughness") material.roughness = value.number();
-    else if (label == "metal") material.metal = value.number();
-    else if (label == "opacity") material.opacity = value.number();
-    else if (label == "glow") material.glow = value.number();
-  }
-  return number_value(tables_.material_index(material), Kind::material);
 }
 
 }  // namespace espalier

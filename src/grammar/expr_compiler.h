@@ -28,7 +28,11 @@ class ExprCompiler {
   Value scalar_function(const ast::Expr& expr, const std::vector<Value>& args);
   Value mix(const ast::Expr& expr, const std::vector<Value>& args);
   Value primitive(const ast::Expr& expr, const NameScope& scope);
-  Value surface(const ast::Expr& expr, const NameScope& scope);
+  // surface_compiler.cpp
+  Value surface(const ast::Expr& expr, const NameScope& scope, const std::string& name);
+  Value texture(const ast::Expr& expr, const NameScope& scope);
+  void texture_argument(const ast::Expr& call, std::size_t i, const NameScope& scope, TextureValue& out);
+  Value made_material(const ast::Expr& expr, const Material& base, const std::vector<OpenNumber>& open);
   Value mesh_value(const MeshRef& mesh, const Operand& top);
   Operand dot(const Value& a, const Value& b);
   void problem(const ast::Expr& expr, const std::string& message);

@@ -12,6 +12,7 @@
 
 #include "base/diagnostic.h"
 #include "base/vec.h"
+#include "grammar/material.h"
 #include "grammar/program.h"
 
 namespace espalier {
@@ -109,16 +110,6 @@ struct MeshRef {
   SourceSpan span;
 };
 
-/// A surface; colours are linear-light values of the sRGB hex triple.
-struct Material {
-  std::string name;
-  Vec3 color{0.8f};
-  float roughness = 0.7f;
-  float metal = 0;
-  float opacity = 1;
-  float glow = 0;
-};
-
 /// An `attr` with the value that this graph was built with.
 struct Attribute {
   std::string name;
@@ -134,6 +125,7 @@ struct GeneratorGraph {
   std::vector<Edge> edges;   // edges[0].child is the start rule
   std::vector<MeshRef> meshes;
   std::vector<Material> materials;  // [0] is the default
+  std::vector<MaterialRecipe> recipes;  // of materials that are made with the model
   std::vector<Attribute> attributes;
   std::vector<RuleId> counted_rules;  // rules whose depth(R) is read
   std::vector<Program> details;       // per detail rule

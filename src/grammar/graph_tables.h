@@ -5,12 +5,25 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "grammar/checked.h"
 #include "grammar/graph.h"
 #include "grammar/value.h"
 
 namespace espalier {
+
+/// A number of a material or texture that is known only when the model is made.
+struct OpenNumber {
+  MaterialRecipe::Slot slot;
+  Operand operand;
+};
+
+/// A texture as compiled: its numbers, some of them open.
+struct TextureValue {
+  TextureRef texture;
+  std::vector<OpenNumber> open;
+};
 
 class GraphTables {
  public:
@@ -21,8 +34,12 @@ class GraphTables {
     graph.materials.push_back({.name = "default"});
   }
 
+  /// A file that the text at `span` names, seen from the grammar's folder: paths are relative to the file that holds them.
+  std::string path_from_grammar(const std::string& path, const SourceSpan& span) const;
   std::uint16_t mesh_index(const MeshRef& mesh);
   std::uint16_t material_index(const Material& material);
+  /// Index into graph.recipes.
+  std::uint16_t recipe_index(MaterialRecipe recipe);
   /// First of the blends from material a (step 0) to b (step kBlendSteps).
   std::uint16_t blend_index(std::uint16_t a, std::uint16_t b);
   std::uint16_t counted_index(const std::string& rule);
@@ -43,6 +60,7 @@ class GraphTables {
   Diagnostics& diagnostics;
   std::map<std::string, std::uint16_t> rule_ids;
   std::map<std::string, std::uint16_t> detail_ids;
+  std::vector<TextureValue> textures;  // of the expressions compiled so far
   NameScope globals;  // consts, attrs, meshes, materials, then the draws and lets of the start rule
 
  private:
@@ -53,7 +71,5 @@ class GraphTables {
 
 /// "box" and the other primitives; nothing for other names.
 std::optional<MeshKind> primitive_named(const std::string& name);
-/// "#rrggbb" to linear light; nothing when it is not that.
-std::optional<Vec3> parse_color(const std::string& text);
 
 }  // namespace espalier

@@ -11,6 +11,7 @@ std::string_view name_of(Kind kind) {
     case Kind::text: return "text";
     case Kind::mesh: return "mesh";
     case Kind::material: return "material";
+    case Kind::texture: return "texture";
   }
   return "?";
 }
@@ -24,6 +25,7 @@ std::string_view phrase_of(Kind kind) {
     case Kind::text: return "a text";
     case Kind::mesh: return "a mesh";
     case Kind::material: return "a material";
+    case Kind::texture: return "a texture";
   }
   return "?";
 }

@@ -6,7 +6,7 @@
 
 namespace espalier {
 
-enum class Kind : std::uint8_t { number, angle, vector, boolean, text, mesh, material };
+enum class Kind : std::uint8_t { number, angle, vector, boolean, text, mesh, material, texture };
 
 /// "number", "angle", ...
 std::string_view name_of(Kind kind);

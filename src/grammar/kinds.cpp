@@ -19,7 +19,7 @@ KindChecker::KindChecker(CheckContext& context)
 void KindChecker::run() {
   for (const std::size_t index : context_.value_order) value_declaration(index);
   for (const Decl& decl : context_.decls())
-    if (decl.kind == DeclKind::mesh || decl.kind == DeclKind::material) resource(decl);
+    if (decl.kind == DeclKind::mesh) resource(decl);
   if (const Decl* start = context_.start()) enqueue(context_.index_of(*start));
   // What nobody calls is looked at too, in text order, with parameters that fit everywhere.
   for (std::size_t i = 0; i <= context_.decls().size(); ++i) {
@@ -30,6 +30,9 @@ void KindChecker::run() {
     }
     if (i < context_.decls().size()) enqueue(i);
   }
+  locals_.clear();
+  for (const Decl& decl : context_.decls())
+    if (decl.kind == DeclKind::material) resource(decl);  // may read what the start rule draws
   for (std::size_t i = 0; i < context_.decls().size(); ++i)
     if (context_.decls()[i].kind == DeclKind::function) visit_function(i);
   publish();
@@ -44,7 +47,7 @@ void KindChecker::enqueue(std::size_t index) {
 
 void KindChecker::value_declaration(std::size_t index) {
   const Decl& decl = context_.decls()[index];
-  if (decl.kind == DeclKind::function) return;
+  if (decl.kind == DeclKind::function || decl.kind == DeclKind::material) return;
   value_kinds_[index] = of(*decl.value);
   if (decl.kind == DeclKind::attribute) attribute(decl, value_kinds_[index]);
 }

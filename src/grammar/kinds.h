@@ -60,6 +60,7 @@ class KindChecker {
   MaybeKind of_function(const ast::Expr& expr, const ast::Decl& function);
   MaybeKind of_builtin(const ast::Expr& expr);
   void primitive_arguments(const ast::Expr& expr);
+  void surface_arguments_of(const ast::Expr& expr);
   /// Same kind for all, one of `allowed` (empty: any).
   MaybeKind common_kind(const std::vector<ast::Expr*>& exprs, std::initializer_list<Kind> allowed,
                         std::string_view what);

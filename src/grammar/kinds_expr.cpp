@@ -6,6 +6,7 @@
 
 #include "grammar/kind_rules.h"
 #include "grammar/kinds.h"
+#include "grammar/surface_arguments.h"
 #include "grammar/words.h"
 
 namespace espalier {
@@ -26,6 +27,8 @@ std::string help_for(const Expr& expr, std::optional<Kind> wanted, std::optional
   if (*wanted == Kind::number && *got == Kind::boolean) return "write `... ? 1 : 0`";
   if (*wanted == Kind::mesh && *got == Kind::text) return "declare it: `mesh NAME = \"file.glb\"`";
   if (*wanted == Kind::material && *got == Kind::text) return "write `surface(\"#rrggbb\")`";
+  if (*wanted == Kind::material && *got == Kind::texture) return "write `surface(\"#ffffff\", texture: ...)`";
+  if (*wanted == Kind::texture && *got == Kind::text) return "write `image_texture(\"file.png\")`";
   return {};
 }
 
@@ -144,7 +147,10 @@ KindChecker::MaybeKind KindChecker::of_binary(const Expr& expr) {
 
 KindChecker::MaybeKind KindChecker::of_ternary(const Expr& expr) {
   expect(*expr.children[0], {Kind::boolean}, "the condition of `? :`");
-  return common_kind({expr.children[1].get(), expr.children[2].get()}, {}, "`? :`");
+  const MaybeKind kind = common_kind({expr.children[1].get(), expr.children[2].get()}, {}, "`? :`");
+  if (kind != Kind::texture) return kind;
+  mismatch(expr, "`? :` chooses between surfaces, not between textures", std::nullopt, kind);
+  return std::nullopt;
 }
 
 KindChecker::MaybeKind KindChecker::of_call(Expr& expr) {
@@ -159,7 +165,8 @@ KindChecker::MaybeKind KindChecker::of_call(Expr& expr) {
   switch (builtin->sort) {
     case BuiltinSort::function: return of_builtin(expr);
     case BuiltinSort::primitive: primitive_arguments(expr); return Kind::mesh;
-    case BuiltinSort::surface: primitive_arguments(expr); return Kind::material;
+    case BuiltinSort::surface: surface_arguments_of(expr); return Kind::material;
+    case BuiltinSort::texture: surface_arguments_of(expr); return Kind::texture;
     default: return std::nullopt;
   }
 }
@@ -196,13 +203,17 @@ KindChecker::MaybeKind KindChecker::of_builtin(const Expr& expr) {
   return fixed_kind_of_function(expr.name);
 }
 
-/// Of primitives and `surface`: its colour is a text, all else numbers.
 void KindChecker::primitive_arguments(const Expr& expr) {
+  for (const ast::Arg& arg : expr.args)
+    expect(*arg.value, {Kind::number}, fmt::format("an argument of `{}`", expr.name));
+}
+
+void KindChecker::surface_arguments_of(const Expr& expr) {
   for (std::size_t i = 0; i < expr.args.size(); ++i) {
-    const ast::Arg& arg = expr.args[i];
-    const bool color = expr.name == "surface" && (arg.label ? arg.label->name == "color" : i == 0);
-    if (color) expect(*arg.value, {Kind::text}, "the colour of `surface`");
-    else expect(*arg.value, {Kind::number}, fmt::format("an argument of `{}`", expr.name));
+    ast::Expr& value = *expr.args[i].value;
+    if (const SurfaceArgument* argument = surface_argument(expr, i))
+      expect(value, {kind_of(argument->sort)}, fmt::format("`{}` of `{}`", argument->name, expr.name));
+    else of(value);
   }
 }
 

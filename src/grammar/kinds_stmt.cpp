@@ -78,6 +78,11 @@ void KindChecker::bind(const ast::Stmt& stmt, MaybeKind kind) {
              kind);
     kind = std::nullopt;
   }
+  if (kind == texture) {
+    mismatch(*stmt.exprs[0], fmt::format("`{}` would be a texture, which stands only in `surface(..)`", stmt.name),
+             std::nullopt, kind);
+    kind = std::nullopt;
+  }
   if (in_start_ && nesting_ == 0) globals_[stmt.name] = kind;
   else locals_[stmt.name] = kind;
 }
@@ -112,7 +117,8 @@ void KindChecker::pass_argument(const ast::Decl& callee, std::size_t param, cons
   if (!kind) return;
   Signature& signature = signatures_[context_.index_of(callee)];
   MaybeKind& known = signature.kinds[param];
-  if (*kind == text) return mismatch(arg, "a text cannot be passed on", std::nullopt, kind);
+  if (*kind == text || *kind == texture)
+    return mismatch(arg, fmt::format("{} cannot be passed on", phrase_of(*kind)), std::nullopt, kind);
   if (!known) {
     known = kind;
     signature.set_by[param] = arg.span;

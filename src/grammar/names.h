@@ -73,6 +73,8 @@ class NameChecker {
   void labels(const ast::Expr& expr, const Builtin& builtin);
   void draw(const ast::Expr& call, const Reader& reader);
   void require(const ast::Expr& expr, unsigned sight, const Reader& reader, std::string_view what);
+  /// That the start rule's draws are made which the function or material at `index` reads.
+  void require_made(const ast::Expr& expr, std::size_t index);
   void unknown(const ast::Expr& expr, bool called);
   bool count(const SourceSpan& span, std::string_view name, std::size_t given, int fewest, int most);
   std::vector<std::string_view> words_in_sight(bool called) const;

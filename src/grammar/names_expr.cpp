@@ -32,9 +32,11 @@ void NameChecker::value_declaration(const Decl& decl) {
       for (const ast::Param& param : decl.params) close(param.name);
       break;
     case DeclKind::mesh:
+      read(*decl.value, {kConstants | kAttributes | kMeshes, "a mesh", "it reads only consts and attrs"});
+      break;
     case DeclKind::material:
-      read(*decl.value, {kConstants | kAttributes | kMeshes, decl.kind == DeclKind::mesh ? "a mesh" : "a material",
-                         "it reads only consts and attrs"});
+      read(*decl.value, {kConstants | kAttributes | kGlobals | kMeshes, "a material",
+                         "it reads consts, attrs and the start rule's draws; `paint surface(...)` reads others too"});
       break;
     default: break;
   }
@@ -76,7 +78,7 @@ void NameChecker::read_global(const Expr& expr, CheckContext::Global& global, co
   global.used = true;
   if (!in_start()) global.used_outside = true;
   const std::size_t place = global.place;
-  if (decl_->kind == DeclKind::function) {
+  if (decl_->kind == DeclKind::function || decl_->kind == DeclKind::material) {
     std::size_t& latest = context_.globals_read[context_.index_of(*decl_)];
     latest = std::max(latest, place + 1);
   } else if (place >= globals_defined_) {
@@ -98,7 +100,9 @@ void NameChecker::read_declared(const Expr& expr, const Decl& decl, const Reader
       return require(expr, attribute ? kAttributes : kConstants, reader, attribute ? "the attr" : "the const");
     }
     case DeclKind::mesh: return require(expr, kMeshes, reader, "the mesh");
-    case DeclKind::material: return require(expr, kMeshes, reader, "the material");
+    case DeclKind::material:
+      require(expr, kMeshes, reader, "the material");
+      return require_made(expr, index);
     case DeclKind::function:
       context_.diagnostics.error("E0206", expr.span, fmt::format("the function `{}` needs its arguments", expr.name),
                                  fmt::format("write `{}(...)`", expr.name));
@@ -125,6 +129,7 @@ void NameChecker::read_builtin(const Expr& expr, const Builtin& builtin, const R
       return;
     case BuiltinSort::function:
     case BuiltinSort::surface:
+    case BuiltinSort::texture:
       context_.diagnostics.error("E0206", expr.span, fmt::format("`{}` needs its arguments", expr.name),
                                  fmt::format("write `{}(...)`", expr.name));
   }
@@ -160,10 +165,14 @@ void NameChecker::call_function(const Expr& expr, const Decl& function, const Re
                                  fmt::format("the arguments of `{}` carry no names", expr.name));
     read(*arg.value, reader);
   }
+  require_made(expr, index);
+}
+
+void NameChecker::require_made(const Expr& expr, std::size_t index) {
   if (in_rule() && context_.globals_read[index] > globals_defined_)
     context_.diagnostics.error(
         "E0205", expr.span, fmt::format("`{}` reads a draw or let of the start rule that is not made yet", expr.name),
-        "move the call further down");
+        "use it further down");
 }
 
 void NameChecker::call_builtin(const Expr& expr, const Builtin& builtin, const Reader& reader) {
@@ -266,7 +275,8 @@ std::vector<std::string_view> NameChecker::words_in_sight(bool called) const {
     if (called ? kind == DeclKind::function : value) words.push_back(name);
   }
   for (const Builtin& b : builtins()) {
-    const bool function = b.sort == BuiltinSort::function || b.sort == BuiltinSort::surface;
+    const bool function =
+        b.sort == BuiltinSort::function || b.sort == BuiltinSort::surface || b.sort == BuiltinSort::texture;
     if (called ? function : b.sort == BuiltinSort::value || b.sort == BuiltinSort::primitive) words.push_back(b.name);
   }
   return words;

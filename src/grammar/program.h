@@ -83,6 +83,7 @@ enum class OpCode : std::uint8_t {
   binary,        // dst = arithmetic(x, y)
   ternary,       // dst = arithmetic(x, y, z)
   mix_material,  // dst = a + round(16 clamp(x)): one of 17 blends in a row
+  make_material,  // dst = the material that paint site a makes
   // Control; b is the index of an op
   jump,              // to b
   jump_if_zero,      // to b if x == 0
@@ -124,9 +125,16 @@ struct SlotCode {
   std::vector<Operand> args;         // one per float of the child's parameters
 };
 
+/// A material made with the model: values are rounded to the steps of the recipe's slots.
+struct PaintSite {
+  std::uint16_t recipe = 0;   // index into GeneratorGraph::recipes
+  std::vector<Operand> args;  // one per slot
+};
+
 struct Program {
   std::vector<Op> ops;
   std::vector<CallSite> calls;
+  std::vector<PaintSite> paints;
   std::vector<SlotCode> slots;  // one per slot operation: the copies of a mirror have one each
   std::uint16_t parameters = 0;  // floats, at local_base
 };

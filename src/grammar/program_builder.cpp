@@ -154,6 +154,8 @@ void relocate(Program& program, Register local_base) {
   }
   for (CallSite& call : program.calls)
     for (Operand& arg : call.args) relocate(arg.reg, local_base);
+  for (PaintSite& paint : program.paints)
+    for (Operand& arg : paint.args) relocate(arg.reg, local_base);
   for (SlotCode& slot : program.slots)
     for (Operand& arg : slot.args) relocate(arg.reg, local_base);
 }

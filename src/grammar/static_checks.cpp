@@ -31,9 +31,10 @@ void StaticChecks::expression(const Expr& expr, const StaticScope& scope) {
   Diagnostics found;
   if (evaluate_static(expr, scope, &found)) return;  // whatever is in it has a value too
   for (const Diagnostic& d : found.items()) error(d.code, expr, d.message, d.help);
-  if (expr.kind == ExprKind::call && expr.name == "surface") surface(expr, scope);
-  if (expr.kind == ExprKind::call && find_builtin(expr.name) && find_builtin(expr.name)->sort == BuiltinSort::primitive)
-    primitive(expr, scope);
+  if (const Builtin* builtin = expr.kind == ExprKind::call ? find_builtin(expr.name) : nullptr) {
+    if (builtin->sort == BuiltinSort::surface || builtin->sort == BuiltinSort::texture) surface(expr, scope);
+    if (builtin->sort == BuiltinSort::primitive) primitive(expr, scope);
+  }
   if (!found.items().empty()) return;  // its parts would repeat the fault
   for (const ast::ExprPtr& child : expr.children) expression(*child, scope);
   for (const ast::Arg& arg : expr.args) expression(*arg.value, scope);
@@ -51,27 +52,6 @@ void StaticChecks::primitive(const Expr& expr, const StaticScope& scope) {
     else if (count->scalar() < kFewest || count->scalar() > kMost || count->scalar() != std::floor(count->scalar()))
       error("E0514", *arg.value,
             fmt::format("the sides of a primitive must be a whole number in 3..1024, got {}", describe(*count)));
-  }
-}
-
-void StaticChecks::surface(const Expr& expr, const StaticScope& scope) {
-  constexpr std::string_view kOrder[] = {"color", "roughness", "metal", "opacity", "glow"};
-  for (std::size_t i = 0; i < expr.args.size(); ++i) {
-    const ast::Arg& arg = expr.args[i];
-    const std::string_view label = arg.label ? std::string_view(arg.label->name) : kOrder[std::min<std::size_t>(i, 4)];
-    const Value given = value(*arg.value, scope);
-    if (!given) {
-      error("E0515", *arg.value, fmt::format("the {} of a surface must be constant", label),
-            label == "color" ? "choose among materials with `pick`, or blend two with `mix`" : "");
-    } else if (given->kind == Kind::text) {
-      const bool color = given->text.size() == 7 && given->text[0] == '#' &&
-                         given->text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
-      if (!color) error("E0515", *arg.value, fmt::format("a colour is written \"#rrggbb\", got {}", describe(*given)));
-    } else if (given->scalar() < 0 || (label != "glow" && given->scalar() > 1)) {
-      error("E0515", *arg.value,
-            fmt::format("the {} of a surface must be {}, got {}", label, label == "glow" ? ">= 0" : "in 0..1",
-                        describe(*given)));
-    }
   }
 }
 

@@ -31,11 +31,13 @@ class StaticChecks {
   void warning(std::string code, const ast::Expr& expr, std::string message, std::string help = {});
   bool fresh(const void* place, const std::string& code) { return reported_.insert({place, code}).second; }
   void primitive(const ast::Expr& expr, const StaticScope& scope);
-  void surface(const ast::Expr& expr, const StaticScope& scope);
   void lengths(const ast::Stmt& stmt, const StaticScope& scope);
   void direction(const ast::Expr& expr, const StaticScope& scope);
   void sizes(const ast::Stmt& stmt, const StaticScope& scope);
   void weights(const ast::Stmt& stmt, const StaticScope& scope);
+
+  // surface_checks.cpp
+  void surface(const ast::Expr& expr, const StaticScope& scope);
 
   // draw_checks.cpp
   void draw(const ast::Expr& call, const StaticScope& scope);

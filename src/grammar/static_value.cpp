@@ -232,7 +232,8 @@ std::string describe(const StaticValue& value) {
     case Kind::boolean: return n[0] != 0 ? "true" : "false";
     case Kind::text: return fmt::format("\"{}\"", value.text);
     case Kind::mesh:
-    case Kind::material: break;
+    case Kind::material:
+    case Kind::texture: break;
   }
   return value.text;
 }

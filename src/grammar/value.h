@@ -14,7 +14,8 @@ namespace espalier {
 
 struct Value {
   Kind kind = Kind::number;
-  /// vector: x, y, z. mesh: index into GeneratorGraph::meshes, and the shape number `top`. Otherwise parts[0].
+  /// vector: x, y, z. mesh: index into GeneratorGraph::meshes, and the shape number `top`. texture: index into
+  /// GraphTables::textures. Otherwise parts[0].
   std::array<Operand, 3> parts{};
   std::string text;  // Kind::text
 

@@ -1,5 +1,5 @@
-// Consts, attrs and functions in an order in which each follows what it reads. Cycles are errors, and so are functions
-// that would grow too large or too deep once they are written out where they are called.
+// Consts, attrs, functions and materials in an order in which each follows what it reads. Cycles are errors, and so are
+// functions that would grow too large or too deep once they are written out where they are called.
 
 #include <algorithm>
 
@@ -17,7 +17,8 @@ constexpr std::size_t kMostCalls = 10'000;
 constexpr std::size_t kDeepestCalls = 64;
 
 bool is_ordered(const Decl& decl) {
-  return decl.kind == DeclKind::constant || decl.kind == DeclKind::attribute || decl.kind == DeclKind::function;
+  return decl.kind == DeclKind::constant || decl.kind == DeclKind::attribute || decl.kind == DeclKind::function ||
+         decl.kind == DeclKind::material;
 }
 
 /// Kahn's algorithm, the earliest declaration first among those that are ready. What is left over reads itself.

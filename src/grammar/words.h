@@ -14,6 +14,7 @@ enum class BuiltinSort : std::uint8_t {
   function,
   primitive,     // a mesh, with or without arguments
   surface,
+  texture,
 };
 
 /// What may be called, and with how many arguments. `labels`: names that arguments may carry, in their order,

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
+#include <string_view>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -23,7 +26,7 @@ std::string model_name(const std::string& path, const Provenance& provenance) {
 }  // namespace
 
 void export_model(const std::string& path, const Model& model, const MeshTable& meshes,
-                  const std::vector<Material>& materials, const Provenance& provenance,
+                  const Surfaces& surfaces, const Provenance& provenance,
                   const ExportOptions& options) {
   const std::filesystem::path file(path);
   std::string ending = file.extension().string();
@@ -33,7 +36,7 @@ void export_model(const std::string& path, const Model& model, const MeshTable& 
     throw Error(fmt::format("{}: models are written as .glb, .obj, .ply or .stl, got \"{}\"", path, ending));
   }
   const Parts parts = collect_parts(model, meshes, options.full);
-  const WriterInput input{parts, materials, provenance, model_name(path, provenance)};
+  const WriterInput input{parts, surfaces, provenance, model_name(path, provenance)};
   const auto named = [&](const auto& write) {
     try {
       return write();
@@ -44,11 +47,17 @@ void export_model(const std::string& path, const Model& model, const MeshTable& 
   if (ending == ".glb") return write_file(path, named([&] { return write_glb(input, options.gpu_instancing); }));
   if (ending == ".ply") return write_file(path, named([&] { return write_ply(input); }));
   if (ending == ".stl") return write_file(path, named([&] { return write_stl(input); }));
-  const std::filesystem::path mtl = std::filesystem::path(file).replace_extension(".mtl");
-  const ObjFiles files = named([&] { return write_obj(input, mtl.filename().string()); });
-  StagedFile staged_obj(path, files.obj), staged_mtl(mtl.string(), files.mtl);
-  staged_mtl.commit();
-  staged_obj.commit();
+  const ObjFiles files = named([&] { return write_obj(input, file.stem().string()); });
+  std::vector<std::unique_ptr<StagedFile>> staged;
+  const auto stage = [&](const std::filesystem::path& target, std::string_view bytes) {
+    staged.push_back(std::make_unique<StagedFile>(target.string(), bytes));
+  };
+  stage(file, files.obj);
+  stage(std::filesystem::path(file).replace_extension(".mtl"), files.mtl);
+  for (const auto& [name, picture] : files.textures)
+    stage(file.parent_path() / name, texture_bytes(*picture, &provenance));
+  // All are whole by now. The OBJ gets its name last, for it names the others.
+  for (std::size_t i = staged.size(); i-- > 0;) staged[i]->commit();
 }
 
 }  // namespace espalier

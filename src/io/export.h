@@ -1,11 +1,13 @@
 #pragma once
-// Writing models. The format follows the file name: .glb, .obj (with .mtl beside it), .ply, .stl. Only what `full` or
-// `parts` shows is written. Files are written to a temporary name in the same folder and renamed when whole.
+// Writing models. The format follows the file name: .glb, .obj (with .mtl and textures beside it), .ply, .stl. Only
+// what `full` or `parts` shows is written. Files are written to a temporary name in the same folder and renamed when
+// whole.
 
 #include <string>
 
 #include "io/provenance.h"
 #include "model/model.h"
+#include "model/surfaces.h"
 
 namespace espalier {
 
@@ -17,7 +19,7 @@ struct ExportOptions {
 /// Throws Error naming the file (unknown ending, unwritable folder, full disk); then the old file, if any, is
 /// untouched.
 void export_model(const std::string& path, const Model& model, const MeshTable& meshes,
-                  const std::vector<Material>& materials, const Provenance& provenance,
+                  const Surfaces& surfaces, const Provenance& provenance,
                   const ExportOptions& options = {});
 
 }  // namespace espalier

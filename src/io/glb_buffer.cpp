@@ -13,6 +13,7 @@ struct ViewFacts {
 };
 constexpr ViewFacts kViewFacts[] = {
     {5126, "VEC3", ",\"byteStride\":12,\"target\":34962"},
+    {5126, "VEC2", ",\"byteStride\":8,\"target\":34962"},
     {5123, "SCALAR", ",\"target\":34963"},
     {5125, "SCALAR", ",\"target\":34963"},
     {5126, "VEC3", ""},
@@ -48,6 +49,18 @@ GlbBuffer::ShapeAccessors GlbBuffer::add_shape(const Mesh& mesh) {
   return out;
 }
 
+std::uint32_t GlbBuffer::add_uvs(const Mesh& mesh) {
+  CHECK(mesh.uvs.size() == mesh.positions.size());
+  const std::uint32_t accessor = add_accessor(uvs, mesh.uvs.size());
+  for (const Vec2& uv : mesh.uvs) views_[uvs].raw(uv.x).raw(1 - uv.y);
+  return accessor;
+}
+
+std::uint32_t GlbBuffer::add_image(std::string bytes) {
+  images_.push_back(std::move(bytes));
+  return static_cast<std::uint32_t>(images_.size() - 1);
+}
+
 std::uint32_t GlbBuffer::add_rows(std::span<const float> values, std::uint32_t width) {
   CHECK(width == 3 || width == 4);
   const View view = width == 3 ? rows3 : rows4;
@@ -61,14 +74,16 @@ std::string GlbBuffer::finish(TextBuffer& json) const {
   std::array<std::uint32_t, view_count> number{};
   TextBuffer view_json;
   std::uint32_t used = 0;
-  for (std::uint32_t v = 0; v < view_count; ++v) {
-    const std::string& view_bytes = views_[v].text();
-    if (view_bytes.empty()) continue;
+  const auto add_view = [&](const std::string& view_bytes, std::string_view members) {
     bytes.append((4 - bytes.size() % 4) % 4, '\0');
     view_json << (used > 0 ? "," : "") << "{\"buffer\":0,\"byteOffset\":" << std::uint64_t{bytes.size()}
-              << ",\"byteLength\":" << std::uint64_t{view_bytes.size()} << kViewFacts[v].members << "}";
+              << ",\"byteLength\":" << std::uint64_t{view_bytes.size()} << members << "}";
     bytes += view_bytes;
-    number[v] = used++;
+    return used++;
+  };
+  for (const std::string& image : images_) add_view(image, "");
+  for (std::uint32_t v = 0; v < view_count; ++v) {
+    if (!views_[v].text().empty()) number[v] = add_view(views_[v].text(), kViewFacts[v].members);
   }
   json << "\"accessors\":[";
   for (const Accessor& a : accessors_) {

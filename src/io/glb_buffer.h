@@ -1,5 +1,6 @@
 #pragma once
-// GlbBuffer: the accessors of a GLB and the bytes behind them. Accessors of one kind share a bufferView.
+// GlbBuffer: the accessors of a GLB and the bytes behind them. Accessors of one kind share a bufferView. Images stand
+// first, so that their numbers are known at once.
 
 #include <array>
 #include <cstdint>
@@ -20,6 +21,10 @@ class GlbBuffer {
     std::uint32_t position, normal, indices;
   };
   ShapeAccessors add_shape(const Mesh& mesh);
+  /// The mesh's texture coordinates, turned to glTF's, whose v runs downwards.
+  std::uint32_t add_uvs(const Mesh& mesh);
+  /// A bufferView of its own for the bytes of an image; its index.
+  std::uint32_t add_image(std::string bytes);
   /// `values` in rows of 3 or 4: one row per instance of EXT_mesh_gpu_instancing.
   std::uint32_t add_rows(std::span<const float> values, std::uint32_t width);
 
@@ -28,7 +33,7 @@ class GlbBuffer {
   std::string finish(TextBuffer& json) const;
 
  private:
-  enum View : std::uint32_t { vertices, short_indices, long_indices, rows3, rows4, view_count };
+  enum View : std::uint32_t { vertices, uvs, short_indices, long_indices, rows3, rows4, view_count };
 
   struct Accessor {
     View view;
@@ -40,6 +45,7 @@ class GlbBuffer {
 
   std::array<TextBuffer, view_count> views_;
   std::vector<Accessor> accessors_;
+  std::vector<std::string> images_;
 };
 
 }  // namespace espalier

@@ -26,10 +26,12 @@ namespace espalier {
 namespace {
 
 constexpr float kFarthest = 1e9f;  // metres; beyond, single precision no longer holds a shape
+constexpr float kFarthestUv = 1e6f;
 constexpr std::uint32_t kNone = 0xffffffffu;
 
 struct Vertex {
   Vec3 position, normal;
+  Vec2 uv{0};
 
   bool operator==(const Vertex&) const = default;
 };
@@ -40,7 +42,7 @@ class Welder {
   Welder() : table_(1024, kNone) {}
 
   std::uint32_t index_of(Vertex v) {
-    v.position += Vec3(0), v.normal += Vec3(0);  // -0 becomes 0
+    v.position += Vec3(0), v.normal += Vec3(0), v.uv += Vec2(0);  // -0 becomes 0
     if (2 * vertices_.size() >= table_.size()) grow();
     const std::size_t place = find(v);
     if (table_[place] == kNone) {
@@ -54,7 +56,7 @@ class Welder {
  private:
   std::size_t find(const Vertex& v) const {
     std::uint64_t hash = 0;
-    for (const Vec3& part : {v.position, v.normal}) {
+    for (const Vec3& part : {v.position, v.normal, Vec3(v.uv, 0)}) {
       for (int axis = 0; axis < 3; ++axis) hash = key_below(hash, std::bit_cast<std::uint32_t>(part[axis]));
     }
     std::size_t place = hash & (table_.size() - 1);
@@ -95,7 +97,10 @@ class Flattener {
   explicit Flattener(const ImportLimits& limits) : limits_(limits) {}
 
   Mesh flatten(const aiScene& scene) {
-    for (unsigned i = 0; i < scene.mNumMeshes; ++i) shaded_ |= scene.mMeshes[i]->HasNormals();
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+      shaded_ |= scene.mMeshes[i]->HasNormals();
+      mapped_ |= scene.mMeshes[i]->HasTextureCoords(0);
+    }
     std::vector<std::pair<const aiNode*, Frame>> open{{scene.mRootNode, Frame{}}};
     while (!open.empty()) {
       const auto [node, world_from_parent] = open.back();
@@ -144,10 +149,19 @@ class Flattener {
   std::uint32_t corner(const aiMesh& source, unsigned index, const Vec3& position, const Mat3& normals_from_node,
                        const Vec3& flat) {
     if (known_[index] != kNone) return known_[index];
-    if (!shaded_) return known_[index] = welder_.index_of({position, Vec3(0)});
+    const Vec2 uv = uv_of(source, index);
+    if (!shaded_) return known_[index] = welder_.index_of({position, Vec3(0), uv});
     const Vec3 given = source.HasNormals() ? unit_or_zero(normals_from_node * to_vec(source.mNormals[index])) : Vec3(0);
-    if (given != Vec3(0)) return known_[index] = welder_.index_of({position, given});
-    return welder_.index_of({position, flat == Vec3(0) ? Vec3(0, 1, 0) : flat});
+    if (given != Vec3(0)) return known_[index] = welder_.index_of({position, given, uv});
+    return welder_.index_of({position, flat == Vec3(0) ? Vec3(0, 1, 0) : flat, uv});
+  }
+
+  /// Of the first set; 0 where a part has none. Textures repeat, so what is beyond all sense counts as 0.
+  static Vec2 uv_of(const aiMesh& source, unsigned index) {
+    if (!source.HasTextureCoords(0)) return Vec2(0);
+    const aiVector3D& uv = source.mTextureCoords[0][index];
+    const bool usable = std::abs(uv.x) <= kFarthestUv && std::abs(uv.y) <= kFarthestUv;
+    return usable ? Vec2(uv.x, uv.y) : Vec2(0);
   }
 
   Vec3 checked(const Vec3& p) const {
@@ -165,6 +179,7 @@ class Flattener {
     for (const Vertex& v : welder_.vertices()) {
       mesh.positions.push_back(v.position);
       if (shaded_) mesh.normals.push_back(v.normal);
+      if (mapped_) mesh.uvs.push_back(v.uv);
     }
     mesh.triangles = std::move(triangles_);
     return mesh;
@@ -172,6 +187,7 @@ class Flattener {
 
   const ImportLimits& limits_;
   bool shaded_ = false;  // some part has normals
+  bool mapped_ = false;  // some part has texture coordinates
   Welder welder_;
   std::vector<std::uint32_t> known_;  // per vertex of the part at hand
   std::vector<Triangle> triangles_;
@@ -211,6 +227,7 @@ std::string packed(const Mesh& mesh) {
   std::string bytes;
   append_bytes(bytes, mesh.positions);
   append_bytes(bytes, mesh.normals);
+  append_bytes(bytes, mesh.uvs);
   append_bytes(bytes, mesh.triangles);
   return bytes;
 }
@@ -219,6 +236,7 @@ Mesh unpacked(std::string_view bytes) {
   Mesh mesh;
   take_bytes(bytes, mesh.positions);
   take_bytes(bytes, mesh.normals);
+  take_bytes(bytes, mesh.uvs);
   take_bytes(bytes, mesh.triangles);
   return mesh;
 }

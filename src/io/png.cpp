@@ -40,11 +40,12 @@ std::uint8_t paeth(int left, int above, int corner) {
 }
 
 /// The row after filter `kind` (PNG specification, section 9), and how far its bytes are from 0 in all.
-std::uint64_t filter_row(int kind, const std::uint8_t* row, const std::uint8_t* above, std::size_t n,
-                         std::uint8_t* out) {
+std::uint64_t filter_row(int kind, std::size_t channels, const std::uint8_t* row, const std::uint8_t* above,
+                         std::size_t n, std::uint8_t* out) {
   std::uint64_t cost = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const int left = i < 3 ? 0 : row[i - 3], up = above[i], corner = i < 3 ? 0 : above[i - 3];
+    const bool first = i < channels;
+    const int left = first ? 0 : row[i - channels], up = above[i], corner = first ? 0 : above[i - channels];
     const int guess = kind == 1   ? left
                       : kind == 2 ? up
                       : kind == 3 ? (left + up) / 2
@@ -57,18 +58,19 @@ std::uint64_t filter_row(int kind, const std::uint8_t* row, const std::uint8_t* 
 }
 
 /// Every row behind the filter that brings its bytes closest to 0: the specification's advice for photographs.
-std::string filter(std::uint32_t height, std::size_t stride, std::span<const std::uint8_t> rgb) {
+std::string filter(std::uint32_t height, std::size_t stride, std::size_t channels,
+                   std::span<const std::uint8_t> pixels) {
   std::string out;
   out.reserve((stride + 1) * height);
   const std::vector<std::uint8_t> nothing(stride);
   std::vector<std::uint8_t> best(stride), candidate(stride);
   for (std::uint32_t y = 0; y < height; ++y) {
-    const std::uint8_t* row = rgb.data() + y * stride;
+    const std::uint8_t* row = pixels.data() + y * stride;
     const std::uint8_t* above = y > 0 ? row - stride : nothing.data();
     std::uint64_t least = ~std::uint64_t{0};
     char chosen = 0;
     for (int kind = 0; kind < 5; ++kind) {
-      const std::uint64_t cost = filter_row(kind, row, above, stride, candidate.data());
+      const std::uint64_t cost = filter_row(kind, channels, row, above, stride, candidate.data());
       if (cost < least) least = cost, chosen = static_cast<char>(kind), best.swap(candidate);
     }
     out += chosen;
@@ -87,21 +89,39 @@ std::string deflate_all(const std::string& bytes) {
   return out;
 }
 
+std::string encode(std::uint32_t width, std::uint32_t height, std::size_t channels,
+                   std::span<const std::uint8_t> pixels, std::string_view keyword, std::string_view text) {
+  CHECK(width > 0 && height > 0 && pixels.size() == channels * width * height);
+  std::string out(kPngSignature), head;
+  append_u32(head, width);
+  append_u32(head, height);
+  head += '\x08';  // bits per channel
+  head += channels == 4 ? '\x06' : '\x02';
+  head += std::string_view("\x00\x00\x00", 3);  // deflate, adaptive filters, no interlace
+  append_chunk(out, "IHDR", head);
+  append_chunk(out, "sRGB", std::string_view("\0", 1));
+  if (!keyword.empty()) append_chunk(out, "tEXt", std::string(keyword) + '\0' + std::string(text));
+  append_chunk(out, "IDAT", deflate_all(filter(height, channels * width, channels, pixels)));
+  append_chunk(out, "IEND", "");
+  return out;
+}
+
 }  // namespace
 
 std::string encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgb,
                        std::string_view keyword, std::string_view text) {
-  CHECK(width > 0 && height > 0 && rgb.size() == std::size_t{3} * width * height);
-  std::string out(kPngSignature), head;
-  append_u32(head, width);
-  append_u32(head, height);
-  head += std::string_view("\x08\x02\x00\x00\x00", 5);  // 8 bits, RGB, deflate, adaptive filters, no interlace
-  append_chunk(out, "IHDR", head);
-  append_chunk(out, "sRGB", std::string_view("\0", 1));
-  append_chunk(out, "tEXt", std::string(keyword) + '\0' + std::string(text));
-  append_chunk(out, "IDAT", deflate_all(filter(height, std::size_t{3} * width, rgb)));
-  append_chunk(out, "IEND", "");
-  return out;
+  return encode(width, height, 3, rgb, keyword, text);
+}
+
+std::string encode_png_with_alpha(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
+                                  std::string_view keyword, std::string_view text) {
+  bool opaque = true;
+  for (std::size_t i = 3; i < rgba.size(); i += 4) opaque &= rgba[i] == 255;
+  if (!opaque) return encode(width, height, 4, rgba, keyword, text);
+  std::vector<std::uint8_t> rgb;
+  rgb.reserve(rgba.size() / 4 * 3);
+  for (std::size_t i = 0; i < rgba.size(); i += 4) rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
+  return encode(width, height, 3, rgb, keyword, text);
 }
 
 std::optional<std::string> find_png_text(std::string_view png, std::string_view keyword) {

@@ -1,36 +1,21 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <tuple>
-
-#include <nlohmann/json.hpp>
 
 #include "io/glb_buffer.h"
 #include "io/glb_container.h"
+#include "io/glb_materials.h"
 #include "io/placement.h"
 #include "io/writers.h"
 
 namespace espalier {
 namespace {
 
-/// A list of JSON objects in the making.
-class JsonList {
- public:
-  TextBuffer& next() { return text_ << (size_++ > 0 ? "," : ""); }
-  std::uint32_t size() const { return size_; }
-  const std::string& text() const { return text_.text(); }
-
- private:
-  TextBuffer text_;
-  std::uint32_t size_ = 0;
-};
-
-std::string quoted(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-}
-
 class GlbWriter {
  public:
-  GlbWriter(const WriterInput& input, bool gpu_instancing) : input_(input), gpu_instancing_(gpu_instancing) {}
+  GlbWriter(const WriterInput& input, bool gpu_instancing)
+      : input_(input), gpu_instancing_(gpu_instancing), materials_(input.surfaces, buffer_) {}
 
   std::string write() {
     nodes_.next();  // the root; its children are known at the end
@@ -58,51 +43,53 @@ class GlbWriter {
   }
 
  private:
+  /// The accessors of a primitive.
+  struct Attributes {
+    GlbBuffer::ShapeAccessors shape;
+    std::optional<std::uint32_t> uvs;
+  };
+
   void add_baked(const Part& part, const Shape& shape) {
-    const Mesh mesh = baked(shape, part.model_from_shape);
+    const Mesh mesh = mapped(baked(shape, part.model_from_shape), input_.surfaces, part.material);
     if (mesh.triangles.empty()) return;
-    const GlbBuffer::ShapeAccessors accessors = buffer_.add_shape(mesh);
-    add_node(add_mesh(shape.mesh.name, accessors, material(part.material, shape.open)), nullptr, part.gene);
+    Attributes attributes{buffer_.add_shape(mesh), {}};
+    if (!mesh.uvs.empty()) attributes.uvs = buffer_.add_uvs(mesh);
+    add_node(add_mesh(shape.mesh.name, attributes, materials_.index_of(part.material, shape.open)), nullptr, part.gene);
   }
 
   std::uint32_t shared_mesh(const Part& part) {
     const auto [it, fresh] = mesh_of_.try_emplace({part.shape, part.material}, meshes_.size());
     if (fresh) {
       const Shape& shape = input_.parts.shapes[part.shape];
-      auto known = accessors_of_.find(part.shape);
-      if (known == accessors_of_.end()) known = accessors_of_.emplace(part.shape, buffer_.add_shape(shape.mesh)).first;
-      add_mesh(shape.mesh.name, known->second, material(part.material, shape.open));
+      add_mesh(shape.mesh.name, attributes_of(part, shape), materials_.index_of(part.material, shape.open));
     }
     return it->second;
   }
 
-  std::uint32_t add_mesh(const std::string& name, const GlbBuffer::ShapeAccessors& a, std::uint32_t material) {
-    meshes_.next() << "{\"name\":" << quoted(name) << ",\"primitives\":[{\"attributes\":{\"POSITION\":" << a.position
-                   << ",\"NORMAL\":" << a.normal << "},\"indices\":" << a.indices << ",\"material\":" << material
-                   << "}]}";
+  /// Surfaces share a shape's accessors; those with a texture those for as many repeats of it, too.
+  Attributes attributes_of(const Part& part, const Shape& shape) {
+    const bool textured = input_.surfaces.texture(part.material);
+    const Mesh mesh = mapped(shape.mesh, input_.surfaces, part.material);
+    const bool split = textured && shape.mesh.uvs.empty();
+    auto known = accessors_of_.find({part.shape, split});
+    if (known == accessors_of_.end())
+      known = accessors_of_.emplace(std::pair(part.shape, split), buffer_.add_shape(mesh)).first;
+    Attributes out{known->second, {}};
+    if (!textured) return out;
+    const Vec2 repeats = input_.surfaces.material(part.material).repeats();
+    const auto place = std::tuple(part.shape, repeats.x, repeats.y);
+    const auto uvs = uvs_of_.find(place);
+    out.uvs = uvs != uvs_of_.end() ? uvs->second : uvs_of_.emplace(place, buffer_.add_uvs(mesh)).first->second;
+    return out;
+  }
+
+  std::uint32_t add_mesh(const std::string& name, const Attributes& a, std::uint32_t material) {
+    TextBuffer& out = meshes_.next();
+    out << "{\"name\":" << quoted(name) << ",\"primitives\":[{\"attributes\":{\"POSITION\":" << a.shape.position
+        << ",\"NORMAL\":" << a.shape.normal;
+    if (a.uvs) out << ",\"TEXCOORD_0\":" << *a.uvs;
+    out << "},\"indices\":" << a.shape.indices << ",\"material\":" << material << "}]}";
     return meshes_.size() - 1;
-  }
-
-  /// The glTF material of a grammar's material; open shapes are seen from both sides.
-  std::uint32_t material(std::uint16_t index, bool open) {
-    const auto [it, fresh] = material_of_.try_emplace({index, open}, materials_.size());
-    if (!fresh) return it->second;
-    const auto unit = [](float x) { return std::clamp(x, 0.0f, 1.0f); };
-    const Material& m = material_at(input_.materials, index);
-    const Vec3 color(unit(m.color.x), unit(m.color.y), unit(m.color.z));
-    TextBuffer& out = materials_.next();
-    out << "{\"name\":" << quoted(m.name.empty() ? "material" : m.name);
-    (out << ",\"pbrMetallicRoughness\":{\"baseColorFactor\":[").vector(color, ",") << "," << unit(m.opacity) << "]";
-    out << ",\"metallicFactor\":" << unit(m.metal) << ",\"roughnessFactor\":" << unit(m.roughness) << "}";
-    if (m.glow > 0) (out << ",\"emissiveFactor\":[").vector(unit(m.glow) * color, ",") << "]";
-    if (m.glow > 1) {
-      out << ",\"extensions\":{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":" << m.glow << "}}";
-      emissive_strength_ = true;
-    }
-    if (m.opacity < 1) out << ",\"alphaMode\":\"BLEND\"";
-    if (open) out << ",\"doubleSided\":true";
-    out << "}";
-    return it->second;
   }
 
   void add_node(std::uint32_t mesh, const Placement* placement, std::uint32_t gene) {
@@ -139,10 +126,11 @@ class GlbWriter {
     TextBuffer json;
     json << "{\"asset\":{\"version\":\"2.0\",\"generator\":" << quoted("Espalier " + input_.provenance.version)
          << ",\"extras\":{\"espalier\":" << to_json(input_.provenance) << "}}";
+    const bool strong = materials_.uses_emissive_strength();
     const std::string_view instancing = instanced_ ? "\"EXT_mesh_gpu_instancing\"" : "",
-                           strength = emissive_strength_ ? "\"KHR_materials_emissive_strength\"" : "";
-    if (instanced_ || emissive_strength_) {
-      json << ",\"extensionsUsed\":[" << instancing << (instanced_ && emissive_strength_ ? "," : "") << strength << "]";
+                           strength = strong ? "\"KHR_materials_emissive_strength\"" : "";
+    if (instanced_ || strong) {
+      json << ",\"extensionsUsed\":[" << instancing << (instanced_ && strong ? "," : "") << strength << "]";
     }
     // Required: importers that do not know the extension would silently show one instance of each.
     if (instanced_) json << ",\"extensionsRequired\":[" << instancing << "]";
@@ -152,20 +140,23 @@ class GlbWriter {
     if (empty) return pack_glb((json << "}").text(), "");
     json << ",\"nodes\":[{\"name\":" << name << ",\"children\":[1";
     for (std::uint32_t i = 2; i < nodes_.size(); ++i) json << "," << i;
-    json << "]}" << nodes_.text() << "],\"meshes\":[" << meshes_.text() << "],\"materials\":[" << materials_.text()
-         << "],";
+    json << "]}" << nodes_.text() << "],\"meshes\":[" << meshes_.text() << "]";
+    materials_.finish(json);
+    json << ",";
     const std::string bytes = buffer_.finish(json);
     return pack_glb((json << "}").text(), bytes);
   }
 
   const WriterInput& input_;
   const bool gpu_instancing_;
-  bool instanced_ = false, emissive_strength_ = false;
+  bool instanced_ = false;
   GlbBuffer buffer_;
-  JsonList nodes_, meshes_, materials_;
+  GlbMaterials materials_;
+  JsonList nodes_, meshes_;
   std::map<std::pair<std::uint32_t, std::uint16_t>, std::uint32_t> mesh_of_;      // by shape and material
-  std::map<std::uint32_t, GlbBuffer::ShapeAccessors> accessors_of_;               // by shape
-  std::map<std::pair<std::uint16_t, bool>, std::uint32_t> material_of_;           // by material and openness
+  /// By shape, and whether its vertices were split for texture coordinates.
+  std::map<std::pair<std::uint32_t, bool>, GlbBuffer::ShapeAccessors> accessors_of_;
+  std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> uvs_of_;       // by shape and repeats
 };
 
 }  // namespace

@@ -9,11 +9,11 @@ namespace espalier {
 namespace {
 
 /// One name per material in the list (and one for parts beyond it): no blanks, none twice.
-std::vector<std::string> material_names(const std::vector<Material>& materials) {
+std::vector<std::string> material_names(const Surfaces& surfaces) {
   std::vector<std::string> names;
   std::set<std::string> taken;
-  for (std::size_t i = 0; i <= materials.size(); ++i) {
-    std::string name = i < materials.size() ? materials[i].name : "";
+  for (std::size_t i = 0; i <= surfaces.size(); ++i) {
+    std::string name = surfaces.material(static_cast<std::uint16_t>(i)).name;
     for (char& c : name) {
       if (static_cast<unsigned char>(c) <= ' ') c = '_';
     }
@@ -29,15 +29,45 @@ void append_head(TextBuffer& out, const Provenance& provenance) {
   out << "# made by Espalier " << provenance.version << "\n# espalier: " << to_json(provenance) << "\n";
 }
 
-void append_part(TextBuffer& out, const Mesh& mesh, std::uint32_t first) {
+/// Numbers of the next vertex and the next texture coordinate; OBJ counts from 1.
+struct Numbers {
+  std::uint32_t vertex = 1, uv = 1;
+};
+
+void append_part(TextBuffer& out, const Mesh& mesh, Numbers& next) {
   for (const Vec3& p : mesh.positions) (out << "v ").vector(p, " ") << "\n";
+  for (const Vec2& uv : mesh.uvs) out << "vt " << uv.x << " " << uv.y << "\n";
   for (const Vec3& n : mesh.normals) (out << "vn ").vector(n, " ") << "\n";
   for (const Triangle& t : mesh.triangles) {
     out << "f";
-    for (const std::uint32_t corner : t) out << " " << first + corner << "//" << first + corner;
+    for (const std::uint32_t corner : t) {
+      out << " " << next.vertex + corner << "/";
+      if (!mesh.uvs.empty()) out << next.uv + corner;
+      out << "/" << next.vertex + corner;
+    }
     out << "\n";
   }
+  next.vertex += static_cast<std::uint32_t>(mesh.positions.size());
+  next.uv += static_cast<std::uint32_t>(mesh.uvs.size());
 }
+
+/// The files of textures, numbered in the order in which they are asked for.
+class TextureFiles {
+ public:
+  TextureFiles(const std::string& stem, ObjFiles& files) : stem_(stem), files_(files) {}
+
+  const std::string& name_of(const TexturePicture& picture) {
+    for (const auto& [name, known] : files_.textures)
+      if (known == &picture) return name;
+    const std::string number = std::to_string(files_.textures.size() + 1);
+    files_.textures.emplace_back(stem_ + "-texture-" + number + "." + picture.ending, &picture);
+    return files_.textures.back().first;
+  }
+
+ private:
+  const std::string& stem_;
+  ObjFiles& files_;
+};
 
 void append_material(TextBuffer& out, const std::string& name, const Material& m) {
   const float roughness = std::clamp(m.roughness, 0.0f, 1.0f), metal = std::clamp(m.metal, 0.0f, 1.0f);
@@ -52,39 +82,43 @@ void append_material(TextBuffer& out, const std::string& name, const Material& m
 
 }  // namespace
 
-const Material& material_at(const std::vector<Material>& materials, std::uint16_t index) {
-  static const Material kDefault;
-  return index < materials.size() ? materials[index] : kDefault;
-}
-
-ObjFiles write_obj(const WriterInput& input, std::string_view mtl_name) {
-  const std::vector<std::string> names = material_names(input.materials);
+ObjFiles write_obj(const WriterInput& input, const std::string& stem) {
+  const Surfaces& surfaces = input.surfaces;
+  const std::vector<std::string> names = material_names(surfaces);
   const std::vector<Part>& parts = input.parts.parts;
-  const auto slot = [&](const Part& p) { return std::min<std::size_t>(p.material, input.materials.size()); };
+  const auto slot = [&](const Part& p) { return std::min<std::size_t>(p.material, surfaces.size()); };
   std::vector<std::uint32_t> order(parts.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return slot(parts[a]) < slot(parts[b]); });
 
+  ObjFiles files;
+  TextureFiles textures(stem, files);
   TextBuffer obj, mtl;
   append_head(obj, input.provenance);
   append_head(mtl, input.provenance);
-  obj << "mtllib " << mtl_name << "\n";
+  obj << "mtllib " << stem << ".mtl\n";
   std::size_t current = names.size();  // none
-  std::uint32_t first = 1;             // OBJ counts from 1
+  Numbers next;
   for (const std::uint32_t i : order) {
     const Part& part = parts[i];
-    const Mesh mesh = baked(input.parts.shapes[part.shape], part.model_from_shape);
+    const Mesh mesh = mapped(baked(input.parts.shapes[part.shape], part.model_from_shape), surfaces, part.material);
     if (mesh.triangles.empty()) continue;
     if (slot(part) != current) {
       current = slot(part);
       obj << "g " << names[current] << "\nusemtl " << names[current] << "\n";
-      append_material(mtl, names[current], material_at(input.materials, part.material));
+      append_material(mtl, names[current], surfaces.material(part.material));
+      if (const TexturePicture* picture = surfaces.texture(part.material)) {
+        const std::string& file = textures.name_of(*picture);
+        mtl << "map_Kd " << file << "\n";
+        if (picture->transparent) mtl << "map_d " << file << "\n";
+      }
     }
-    append_part(obj, mesh, first);
-    first += static_cast<std::uint32_t>(mesh.positions.size());
+    append_part(obj, mesh, next);
   }
-  return {std::move(obj.text()), std::move(mtl.text())};
+  files.obj = std::move(obj.text());
+  files.mtl = std::move(mtl.text());
+  return files;
 }
 
 }  // namespace espalier

@@ -11,9 +11,13 @@ struct Colour {
   std::uint8_t channel[4];  // sRGB and opacity
 };
 
-Colour colour_of(const Material& m) {
+/// Of the surface as a whole: with a texture, its mean.
+Colour colour_of(const Surfaces& surfaces, std::uint16_t index) {
+  const Material& m = surfaces.material(index);
+  const TexturePicture* const picture = surfaces.texture(index);
+  const Vec3 color = picture ? m.color * picture->mean : m.color;
   const float opacity = std::clamp(m.opacity, 0.0f, 1.0f);
-  return {{srgb_byte(m.color.x), srgb_byte(m.color.y), srgb_byte(m.color.z),
+  return {{srgb_byte(color.x), srgb_byte(color.y), srgb_byte(color.z),
            static_cast<std::uint8_t>(255 * opacity + 0.5f)}};
 }
 
@@ -24,7 +28,7 @@ std::string write_ply(const WriterInput& input) {
   std::uint32_t vertex_count = 0, face_count = 0;
   for (const Part& part : input.parts.parts) {
     const Mesh mesh = baked(input.parts.shapes[part.shape], part.model_from_shape);
-    const Colour colour = colour_of(material_at(input.materials, part.material));
+    const Colour colour = colour_of(input.surfaces, part.material);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       vertices.raw(mesh.positions[i]).raw(mesh.normals[i]).raw(colour);
     }

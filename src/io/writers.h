@@ -3,16 +3,18 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "model/parts.h"
+#include "model/surfaces.h"
 #include "io/provenance.h"
 
 namespace espalier {
 
 struct WriterInput {
   const Parts& parts;
-  const std::vector<Material>& materials;  // as in the grammar; parts that name others get the default
+  const Surfaces& surfaces;
   const Provenance& provenance;
   std::string name;  // of the model
 };
@@ -23,9 +25,10 @@ std::string write_glb(const WriterInput& input, bool gpu_instancing);
 
 struct ObjFiles {
   std::string obj, mtl;
+  std::vector<std::pair<std::string, const TexturePicture*>> textures;  // by the name of their file
 };
-/// Wavefront OBJ, one group per material; the OBJ names `mtl_name` as its library.
-ObjFiles write_obj(const WriterInput& input, std::string_view mtl_name);
+/// Wavefront OBJ, one group per material; the OBJ names "STEM.mtl" as its library, that one "STEM-texture-N.png".
+ObjFiles write_obj(const WriterInput& input, const std::string& stem);
 
 /// PLY, binary little endian: positions, normals, sRGB colours with opacity.
 std::string write_ply(const WriterInput& input);
@@ -33,7 +36,11 @@ std::string write_ply(const WriterInput& input);
 /// STL, binary.
 std::string write_stl(const WriterInput& input);
 
-/// The material of an index, or a default for an index beyond the list.
-const Material& material_at(const std::vector<Material>& materials, std::uint16_t index);
+/// The bytes of a texture's file: its own, or a PNG, with provenance unless that is null.
+std::string texture_bytes(const TexturePicture& picture, const Provenance* provenance);
+
+/// The mesh as a surface wants it: with texture coordinates, repeated as often as it says, where it has a texture; else
+/// without.
+Mesh mapped(const Mesh& mesh, const Surfaces& surfaces, std::uint16_t material);
 
 }  // namespace espalier

@@ -21,6 +21,8 @@ void Expander::expand(const Derivation& derivation, ExpandTo phase, Model& model
   model.clear();
   machine.model = &model;
   machine.parts_wanted = phase != ExpandTo::bones;
+  machine.materials->reset();
+  machine.materials_wanted = limits_.make_materials && phase != ExpandTo::bones;
   machine.details_wanted = phase == ExpandTo::full && graph_->uses_details;
   machine.parts_left = limits_.most_parts;
   machine.turns_left = limits_.most_turns;

@@ -18,6 +18,8 @@ enum class ExpandTo : std::uint8_t {
 struct ExpandLimits {
   std::uint32_t most_parts = 1'000'000;  // emits and detail calls; then details stop and Model::truncated is set
   std::uint32_t most_turns = 16'000'000;  // of all loops of details, likewise
+  /// Whether recipes are followed. Where nobody looks at materials, the middle one of each will do and costs nothing.
+  bool make_materials = true;
 };
 
 /// Runs programs; holds the scratch memory of one thread. The graph must outlive it.

@@ -12,7 +12,8 @@
 namespace espalier {
 
 Machine::Machine(const GeneratorGraph& graph)
-    : graph_(graph),
+    : materials(std::make_unique<MaterialMaker>(graph)),
+      graph_(graph),
       counted_(static_cast<std::uint32_t>(graph.counted_rules.size())),
       parameters_(graph.registers.parameters),
       register_file_(graph.registers.count + 4),
@@ -156,7 +157,7 @@ void Machine::run_slot(const Program& program, const Op& op, const Derivation& d
   Pending& child = children.push(floats);
   child.state = current_.state;
   child.state.scope = lanes_at(kScopeRegister);
-  if (graph_.uses_details) child.state.key = key_below(current_.state.key, op.b);
+  if (details_wanted) child.state.key = key_below(current_.state.key, op.b);
   child.at = child_at_[op.a];
   child.depth = current_.depth + 1;
   for (std::uint32_t i = 0; i < counted_; ++i)
@@ -166,7 +167,7 @@ void Machine::run_slot(const Program& program, const Op& op, const Derivation& d
 
 // A gene that ends with a slot hands its state to the child there: nothing is queued, nothing copied.
 void Machine::enter_child(const SlotCode& code, const Op& op) {
-  if (graph_.uses_details) current_.state.key = key_below(current_.state.key, op.b);
+  if (details_wanted) current_.state.key = key_below(current_.state.key, op.b);
   current_.at = child_at_[op.a];
   ++current_.depth;
   registers_[kDepthRegister] = static_cast<float>(current_.depth);
@@ -278,6 +279,7 @@ bool Machine::run(const Program& program, const Derivation* derivation) {
         registers_[op.dst] = static_cast<float>(op.a) + std::floor(16 * t + 0.5f);
         break;
       }
+      case OpCode::make_material: make_material(program, op); break;
       case OpCode::jump: next = ops + op.b; break;
       case OpCode::jump_if_zero:
         if (value(op.x) == 0) next = ops + op.b;

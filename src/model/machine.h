@@ -3,9 +3,11 @@
 // hands instances, bones, children and calls to its sinks. Internal to expansion.
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "grammar/face.h"
+#include "model/material_maker.h"
 #include "model/model.h"
 #include "model/pending.h"
 
@@ -38,8 +40,10 @@ class Machine {
   Model* model = nullptr;
   bool parts_wanted = false;
   bool details_wanted = false;
+  bool materials_wanted = true;
   std::uint32_t parts_left = 0;  // emits and calls still allowed; at 0 the model is truncated
   std::uint32_t turns_left = 0;  // turns of loops, likewise
+  std::unique_ptr<MaterialMaker> materials;  // apart: it is large, and few grammars need it
 
  private:
   /// True when a child took the gene's place: it is current now, and wants to be run.
@@ -72,6 +76,7 @@ class Machine {
   void enter_face(Face face);
   [[gnu::always_inline]] inline void emit(const Op& op, Layer layer);
   void make_bone(const Op& op);
+  [[gnu::cold]] void make_material(const Program& program, const Op& op);  // material_maker.cpp
   void run_slot(const Program& program, const Op& op, const Derivation& derivation);
   void enter_child(const SlotCode& code, const Op& op);
   void call(const Program& program, std::uint16_t call_site);

@@ -108,7 +108,11 @@ void Machine::make_bone(const Op& op) {
     ++model->dropped;
     return;
   }
-  model->bones.push_back({from, to, current_.state.bone, current_.at.gene});
+  Bone& bone = model->bones.emplace_back();  // field by field: a copy would wait for the parts just written
+  bone.from = from;
+  bone.to = to;
+  bone.parent = current_.state.bone;
+  bone.gene = current_.at.gene;
   current_.state.bone = static_cast<std::int32_t>(model->bones.size()) - 1;
 }
 

@@ -16,6 +16,7 @@ struct Mesh {
   std::string name;
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;  // per position, unit length; empty = flat shaded
+  std::vector<Vec2> uvs;      // per position, as uv.h says; empty = none
   std::vector<Triangle> triangles;
   std::string source_hash;    // content_hash of the file it came from; empty for primitives
 };

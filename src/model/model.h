@@ -19,7 +19,7 @@ struct Instance {
   Frame model_from_mesh;       // meshes fit the unit box, `as is` meshes keep file coordinates
   float top = 1;               // cones: upper over lower radius
   std::uint16_t mesh = 0;      // index into GeneratorGraph::meshes
-  std::uint16_t material = 0;  // index into GeneratorGraph::materials
+  std::uint16_t material = 0;  // index into GeneratorGraph::materials, and behind those into Model::materials
   std::uint32_t gene = 0;      // index into Derivation::genes
   Layer layer = Layer::rule;
 };
@@ -33,16 +33,28 @@ struct Bone {
   std::uint32_t gene = 0;
 };
 
+/// A material that the model's draws made: a recipe, and the steps of its slots (MaterialRecipe::material).
+struct MadeMaterial {
+  std::uint64_t steps = 0;
+  std::uint16_t recipe = 0;  // index into GeneratorGraph::recipes
+};
+
 struct Model {
+  static constexpr std::size_t kMostMaterials = 256;
+
   std::vector<Instance> instances;
   std::vector<Bone> bones;
+  std::vector<MadeMaterial> materials;  // at most kMostMaterials, in the order in which they came up
   std::uint32_t dropped = 0;  // subtrees or emits left out because a frame was not finite or a size negative
   bool truncated = false;     // the detail budget ran out
+  std::uint32_t plain_paints = 0;  // paints that got the middle of their recipe since there were materials enough
 
   void clear() {
     instances.clear();
     bones.clear();
+    materials.clear();
     dropped = 0;
+    plain_paints = 0;
     truncated = false;
   }
 };

@@ -36,6 +36,7 @@ Mesh without_slivers(const Mesh& mesh) {
         index = static_cast<std::uint32_t>(kept.positions.size());
         kept.positions.push_back(mesh.positions[t[k]]);
         kept.normals.push_back(mesh.normals[t[k]]);
+        if (!mesh.uvs.empty()) kept.uvs.push_back(mesh.uvs[t[k]]);
       }
       renumbered[k] = index;
     }
@@ -52,6 +53,7 @@ float ratio_of(const Instance& instance, const MeshRef& ref) {
 }  // namespace
 
 Mesh with_normals(const Mesh& mesh) {
+  CHECK(mesh.uvs.empty() || mesh.uvs.size() == mesh.positions.size());
   if (!mesh.normals.empty()) {
     CHECK(mesh.normals.size() == mesh.positions.size());
     return without_slivers(mesh);
@@ -65,6 +67,7 @@ Mesh with_normals(const Mesh& mesh) {
     for (const std::uint32_t corner : t) {
       split.positions.push_back(mesh.positions[corner]);
       split.normals.emplace_back(normal);
+      if (!mesh.uvs.empty()) split.uvs.push_back(mesh.uvs[corner]);
     }
     split.triangles.push_back({first, first + 1, first + 2});
   }

@@ -20,11 +20,12 @@ struct Layout {
   std::uint32_t height() const { return kTitle + rows * (cell_height + kGap); }
 };
 
-/// The number of columns whose sheet is nearest to 4:3; the fewer on a tie.
-Layout arrange(std::size_t count, std::uint32_t cell_width, std::uint32_t cell_height) {
+/// So many columns; 0 = those whose sheet is nearest to 4:3, the fewer on a tie.
+Layout arrange(std::size_t count, std::uint32_t wanted, std::uint32_t cell_width, std::uint32_t cell_height) {
   Layout best{1, 1, cell_width, cell_height};
   double least = 1e30;
-  for (std::size_t columns = 1; columns <= std::max<std::size_t>(count, 1); ++columns) {
+  const std::size_t first = std::max(wanted, 1u), last = wanted ? wanted : std::max<std::size_t>(count, 1);
+  for (std::size_t columns = first; columns <= last; ++columns) {
     const std::size_t rows = (count + columns - 1) / columns;
     const Layout layout{static_cast<std::uint32_t>(columns), static_cast<std::uint32_t>(rows), cell_width, cell_height};
     const double ratio = layout.width() * 3.0 / (layout.height() * 4.0);
@@ -54,13 +55,13 @@ void paste(Picture& sheet, const Picture& picture, std::uint32_t x, std::uint32_
 
 }  // namespace
 
-Picture contact_sheet(const std::vector<SheetCell>& cells, const std::string& title) {
+Picture contact_sheet(const std::vector<SheetCell>& cells, const std::string& title, std::uint32_t columns) {
   std::uint32_t picture_width = kSmallestCell, picture_height = 1;
   for (const SheetCell& cell : cells) {
     picture_width = std::max(picture_width, cell.picture.width);
     picture_height = std::max(picture_height, cell.picture.height);
   }
-  const Layout layout = arrange(cells.size(), picture_width, picture_height + kCaption);
+  const Layout layout = arrange(cells.size(), columns, picture_width, picture_height + kCaption);
   Picture sheet{layout.width(), layout.height(), {}};
   sheet.rgb.resize(std::size_t{3} * sheet.width * sheet.height);
   fill(sheet, 0, 0, sheet.width, sheet.height, kPaper);

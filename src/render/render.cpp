@@ -41,13 +41,14 @@ void trace_pixel(const Set& set, const Stage& stage, const Camera& camera, std::
 
 }  // namespace
 
-Picture render(const Model& model, const MeshTable& meshes, const std::vector<Material>& materials,
+Picture render(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
                const std::vector<Mesh>& ghosts, const RenderSettings& settings, Executor& executor) {
   CHECK(settings.width > 0 && settings.height > 0);
-  const Set set = build_set(model, meshes, materials, ghosts, settings.full);
+  Set set = build_set(model, meshes, surfaces, ghosts, settings.full);
   const Camera camera = frame_points(set.corners, settings.azimuth_deg, settings.elevation_deg, settings.width,
                                      settings.height, kMargin);
   const Stage stage = make_stage(set.lowest, camera);
+  set.pixel_angle = 2 * camera.tan_y / static_cast<float>(settings.height);
   Film film(settings.width, settings.height);
   std::vector<std::vector<Sample>> scratch(static_cast<std::size_t>(executor.workers()));
   executor.for_each(settings.height, [&](std::size_t row, int worker) {

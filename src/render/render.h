@@ -8,6 +8,7 @@
 
 #include "base/executor.h"
 #include "model/model.h"
+#include "model/surfaces.h"
 
 namespace espalier {
 
@@ -26,7 +27,7 @@ struct RenderSettings {
 
 /// A picture of the model; `ghosts` are meshes in model space drawn as translucent shells. Frames what it is given; an
 /// empty model gives an empty stage.
-Picture render(const Model& model, const MeshTable& meshes, const std::vector<Material>& materials,
+Picture render(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
                const std::vector<Mesh>& ghosts, const RenderSettings& settings, Executor& executor);
 
 struct SheetCell {
@@ -34,7 +35,7 @@ struct SheetCell {
   std::string caption;  // printable ASCII
 };
 
-/// A contact sheet: equal cells in rows, captions below, as near to 4:3 as the number allows.
-Picture contact_sheet(const std::vector<SheetCell>& cells, const std::string& title);
+/// A contact sheet: equal cells in rows, captions below, in so many columns; 0 = as near to 4:3 as the number allows.
+Picture contact_sheet(const std::vector<SheetCell>& cells, const std::string& title, std::uint32_t columns = 0);
 
 }  // namespace espalier

@@ -7,14 +7,11 @@
 #include <cstdint>
 
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 
 #include "base/math.h"
 #include "base/vec.h"
 
 namespace espalier {
-
-using Vec2 = glm::vec2;
 
 class PixelSamples {
  public:

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "model/uv.h"
 #include "render/crease.h"
 
 namespace espalier {
@@ -44,20 +46,24 @@ class SetBuilder {
     measure();
   }
 
-  Set build(const std::vector<Material>& materials) {
-    set_.materials = materials;
+  Set build(const Surfaces& surfaces) {
+    set_.surfaces = surfaces;
+    add_textures();
     std::vector<Placed> opaque, translucent, ghosts;
-    shapes_.resize(parts_.shapes.size());
+    shapes_.resize(2 * parts_.shapes.size());
     for (const Part& part : parts_.parts) {
       const Shape& shape = parts_.shapes[part.shape];
-      if (shape.mesh.triangles.empty()) continue;
-      (set_.material(part.material).opacity < 1 ? translucent : opaque).push_back(place(part, shape));
+      const AlphaMode alpha = surfaces.alpha_mode(part.material);
+      const Material& m = surfaces.material(part.material);
+      const bool nowhere = alpha == AlphaMode::mask && m.opacity < m.cutout;
+      if (shape.mesh.triangles.empty() || nowhere) continue;
+      (alpha == AlphaMode::blend ? translucent : opaque).push_back(place(part, shape));
     }
     for (Mesh& ghost : ghosts_) {
       if (ghost.triangles.empty()) continue;
       for (Vec3& p : ghost.positions) p = unit_point(p);
       add_corners(ghost);
-      ghosts.push_back({keep(std::move(ghost)), {}, {}, Mat3(1), 0});
+      ghosts.push_back({keep(std::move(ghost)), {}, {}, Mat3(1), 0, nullptr});
     }
     set_.opaque = Tracer(std::move(opaque));
     set_.translucent = Tracer(std::move(translucent));
@@ -98,6 +104,8 @@ class SetBuilder {
   Placed place(const Part& part, const Shape& shape) {
     Placed placed;
     placed.material = part.material;
+    placed.cutout = part.material < cutout_of_.size() ? cutout_of_[part.material] : nullptr;
+    const bool textured = set_.texture(part.material);
     const Mat3 basis = with_depth(part.model_from_shape.basis, shape.box);
     const glm::dmat3 unit_basis = glm::dmat3(basis) * scale_;
     for (const Vec3& corner : box_corners(shape.box)) {
@@ -106,12 +114,12 @@ class SetBuilder {
     if (!invertible(unit_basis)) {  // squeezed flat: a shape of its own, in place
       Mesh mesh = baked(shape, part.model_from_shape);
       for (Vec3& p : mesh.positions) p = unit_point(p);
-      placed.shape = keep(std::move(mesh));
+      placed.shape = keep(textured ? with_uvs(mesh) : std::move(mesh));
       placed.normals_from_shape = Mat3(1);
       return placed;
     }
-    TriangleSet*& known = shapes_[part.shape];
-    if (!known) known = keep(Mesh(shape.mesh));
+    TriangleSet*& known = shapes_[2 * part.shape + (textured ? 1 : 0)];
+    if (!known) known = keep(textured ? with_uvs(shape.mesh) : Mesh(shape.mesh));
     placed.shape = known;
     const glm::dvec3 origin = (glm::dvec3(part.model_from_shape.origin) - centre_) * scale_;
     const glm::dmat3 inverse = glm::inverse(unit_basis);
@@ -119,6 +127,28 @@ class SetBuilder {
     placed.shape_from_world = {Mat3(inverse), Vec3(-(inverse * origin))};
     placed.normals_from_shape = cofactors(unit_basis);
     return placed;
+  }
+
+  void add_textures() {
+    std::map<const TexturePicture*, const TextureSampler*> sampler_of;
+    const Surfaces& surfaces = set_.surfaces;
+    cutout_of_.resize(surfaces.size());
+    set_.texture_of.resize(surfaces.size());
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      const auto material = static_cast<std::uint16_t>(i);
+      const TexturePicture* const picture = surfaces.texture(material);
+      if (!picture) continue;
+      const TextureSampler*& sampler = sampler_of[picture];
+      if (!sampler) {
+        set_.textures.push_back(std::make_unique<TextureSampler>(picture->image));
+        sampler = set_.textures.back().get();
+      }
+      set_.texture_of[i] = sampler;
+      const Material& m = surfaces.material(material);
+      if (surfaces.alpha_mode(material) != AlphaMode::mask || !picture->transparent) continue;
+      set_.cutouts.push_back(std::make_unique<Cutout>(Cutout{sampler, m.repeats(), m.cutout / m.opacity}));
+      cutout_of_[i] = set_.cutouts.back().get();
+    }
   }
 
   TriangleSet* keep(Mesh mesh) {
@@ -135,7 +165,8 @@ class SetBuilder {
 
   Parts parts_;
   std::vector<Mesh> ghosts_;
-  std::vector<TriangleSet*> shapes_;  // per shape of parts_, once used
+  std::vector<TriangleSet*> shapes_;  // per shape of parts_, without and with texture coordinates; once used
+  std::vector<const Cutout*> cutout_of_;  // per material
   glm::dvec3 centre_{0};
   double scale_ = 1;
   Set set_;
@@ -143,9 +174,9 @@ class SetBuilder {
 
 }  // namespace
 
-Set build_set(const Model& model, const MeshTable& meshes, const std::vector<Material>& materials,
+Set build_set(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
               const std::vector<Mesh>& ghosts, bool full) {
-  return SetBuilder(model, meshes, ghosts, full).build(materials);
+  return SetBuilder(model, meshes, ghosts, full).build(surfaces);
 }
 
 }  // namespace espalier

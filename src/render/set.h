@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "model/parts.h"
+#include "model/surfaces.h"
 #include "render/tracer.h"
 
 namespace espalier {
 
 struct Set {
   Tracer opaque, translucent, ghosts;
-  std::vector<Material> materials;
+  Surfaces surfaces;
+  float pixel_angle = 0;  // between the rays of two neighbouring pixels
   /// Corners of all parts' and ghosts' boxes, for the camera.
   std::vector<Vec3> corners;
   float lowest = 0;
@@ -21,13 +23,17 @@ struct Set {
   std::vector<std::unique_ptr<Mesh>> meshes;
   std::vector<std::unique_ptr<TriangleSet>> shapes;
 
-  const Material& material(std::uint16_t index) const {
-    static const Material kDefault;
-    return index < materials.size() ? materials[index] : kDefault;
+  std::vector<std::unique_ptr<TextureSampler>> textures;
+  std::vector<std::unique_ptr<Cutout>> cutouts;
+  std::vector<const TextureSampler*> texture_of;  // per material; null: none
+
+  const Material& material(std::uint16_t index) const { return surfaces.material(index); }
+  const TextureSampler* texture(std::uint16_t index) const {
+    return index < texture_of.size() ? texture_of[index] : nullptr;
   }
 };
 
-Set build_set(const Model& model, const MeshTable& meshes, const std::vector<Material>& materials,
+Set build_set(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
               const std::vector<Mesh>& ghosts, bool full);
 
 }  // namespace espalier

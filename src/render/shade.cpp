@@ -55,9 +55,30 @@ Vec3 highlight(const Vec3& n, const Vec3& to_eye, const Vec3& to_key, float roug
   return fresnel * (std::min(distribution / (4 * l_h * l_h), 8.0f) * n_l);
 }
 
+/// The colour and opacity of a surface where it was hit: the material's times the texture's.
+struct Look {
+  Vec3 color{0};
+  float opacity = 1, texture_alpha = 1;
+};
+
+Look look_of(const Set& set, const Tracer& tracer, const Tracer::Hit& hit) {
+  const std::uint16_t index = tracer.part(hit.part).material;
+  const Material& m = set.material(index);
+  Look look{m.color, std::clamp(m.opacity, 0.0f, 1.0f), 1};
+  if (const TextureSampler* texture = set.texture(index)) {
+    float share = 0;
+    const Vec2 repeats = m.repeats(), uv = tracer.uv(hit, share) * repeats;
+    const auto texel = texture->at(uv, share * hit.t * set.pixel_angle * std::sqrt(repeats.x * repeats.y));
+    look.color *= texel.color;
+    look.texture_alpha = texel.alpha;
+    look.opacity *= texel.alpha;
+  }
+  return look;
+}
+
 /// Fills in colour and light of a hit on the model.
-void shade_surface(const Set& set, const Stage& stage, const Tracer& tracer, const Tracer::Hit& hit, const Vec3& eye,
-                   const Vec3& direction, const PixelSamples& samples, std::uint32_t s, Sample& out) {
+void shade_surface(const Set& set, const Stage& stage, const Tracer& tracer, const Tracer::Hit& hit, const Vec3& color,
+                   const Vec3& eye, const Vec3& direction, const PixelSamples& samples, std::uint32_t s, Sample& out) {
   Vec3 flat, smooth;
   tracer.normals(hit, direction, flat, smooth);
   const Material& m = set.material(tracer.part(hit.part).material);
@@ -65,7 +86,7 @@ void shade_surface(const Set& set, const Stage& stage, const Tracer& tracer, con
   out.position = eye + hit.t * direction;
   out.normal = smooth;
   const Light light = gather(set, stage, out.position, flat, smooth, samples, s);
-  const Vec3 to_eye = -direction, facing_colour = Vec3(0.04f * (1 - metal)) + metal * m.color;
+  const Vec3 to_eye = -direction, facing_colour = Vec3(0.04f * (1 - metal)) + metal * color;
   if (light.key > 0) out.extra += key_radiance() * highlight(smooth, to_eye, stage.to_key, roughness, facing_colour);
   // The surroundings mirrored: sharper for smooth surfaces, brighter at grazing angles. What metals mirror is noisy and
   // has their colour, so it counts as light.
@@ -73,13 +94,13 @@ void shade_surface(const Set& set, const Stage& stage, const Tracer& tracer, con
   const Vec3 mirrored = in_cone(2 * n_v * smooth - to_eye, 0.02f + 0.7f * roughness, samples.in_lobe(s));
   const bool dark = metal > 0.05f && set.opaque.blocks({out.position + kOffset * flat, mirrored, 0}, kSkyReach);
   const Vec3 reflection = (dark ? 0.35f : 1.0f) * studio(mirrored, stage.to_key);
-  out.albedo = m.color;
+  out.albedo = color;
   out.light = (1 - metal) * light.diffuse + metal * reflection;
   const float sheen = (1 - metal) * (0.04f + (1 - roughness) * m5) + metal * 0.5f * m5;
   out.extra += sheen * (0.4f + 0.6f * light.open) * reflection;
   // A faint rim from above and behind parts dark shapes from dark neighbours.
-  out.extra += Vec3(0.10f * m1 * m1 * m1 * (0.6f + 0.4f * smooth.y) * light.open) * (Vec3(0.3f) + m.color);
-  out.extra += std::min(m.glow, 4.0f) * m.color;
+  out.extra += Vec3(0.10f * m1 * m1 * m1 * (0.6f + 0.4f * smooth.y) * light.open) * (Vec3(0.3f) + color);
+  out.extra += std::min(m.glow, 4.0f) * color;
 }
 
 /// The ground, which shows nothing but shadows, and the backdrop.
@@ -117,11 +138,11 @@ void add_layers(const Set& set, const Stage& stage, const Vec3& eye, const Vec3&
   }
   for (int k = count; k-- > 0;) {
     Sample layer;
-    shade_surface(set, stage, set.translucent, hits[k], eye, direction, samples, s, layer);
-    const Material& m = set.material(set.translucent.part(hits[k].part).material);
-    const float opacity = std::clamp(m.opacity, 0.0f, 1.0f);
+    const Look look = look_of(set, set.translucent, hits[k]);
+    shade_surface(set, stage, set.translucent, hits[k], look.color, eye, direction, samples, s, layer);
     const Vec3 behind = sample.albedo * sample.light + sample.extra;
-    sample.extra = opacity * (layer.albedo * layer.light) + layer.extra + (1 - opacity) * behind;
+    sample.extra = look.opacity * (layer.albedo * layer.light) + look.texture_alpha * layer.extra +
+                   (1 - look.opacity) * behind;
     sample.albedo = Vec3(0);
     sample.layered = true;
   }
@@ -137,7 +158,8 @@ Sample trace_sample(const Set& set, const Stage& stage, const Camera& camera, co
   float far = hit.t;
   if (hit) {
     sample.surface = hit.part;
-    shade_surface(set, stage, set.opaque, hit, eye, direction, samples, s, sample);
+    const Vec3 color = look_of(set, set.opaque, hit).color;
+    shade_surface(set, stage, set.opaque, hit, color, eye, direction, samples, s, sample);
   } else {
     const float ground_t = direction.y < -1e-4f && eye.y > stage.ground_y
                                ? (stage.ground_y - eye.y) / direction.y : 1e30f;

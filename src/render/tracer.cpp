@@ -79,23 +79,30 @@ unsigned TriangleSet::intersect_block(const Block& block, const Ray& ray, float 
   return mask;
 }
 
-bool TriangleSet::intersect(const Ray& ray, Hit& hit) const {
+bool TriangleSet::intersect(const Ray& ray, Hit& hit, const Cutout* cutout) const {
   bool found = false;
   bvh_.traverse(ray, hit.t, [&](std::uint32_t leaf) {
     alignas(16) float t[4], u[4], v[4];
     const unsigned mask = intersect_block(blocks_[leaf], ray, hit.t, t, u, v);
     for (int k = 0; mask >> k; ++k) {
-      if ((mask >> k & 1) && t[k] < hit.t) hit = {t[k], u[k], v[k], bvh_.leaves()[leaf][k]}, found = true;
+      if (!(mask >> k & 1) || !(t[k] < hit.t)) continue;
+      if (cutout && !cutout->shows(uv(bvh_.leaves()[leaf][k], u[k], v[k]))) continue;
+      hit = {t[k], u[k], v[k], bvh_.leaves()[leaf][k]}, found = true;
     }
     return false;
   });
   return found;
 }
 
-bool TriangleSet::blocks(const Ray& ray, float far) const {
+bool TriangleSet::blocks(const Ray& ray, float far, const Cutout* cutout) const {
   return bvh_.traverse(ray, far, [&](std::uint32_t leaf) {
     alignas(16) float t[4], u[4], v[4];
-    return intersect_block(blocks_[leaf], ray, far, t, u, v) != 0;
+    const unsigned mask = intersect_block(blocks_[leaf], ray, far, t, u, v);
+    if (!cutout) return mask != 0;
+    for (int k = 0; mask >> k; ++k) {
+      if ((mask >> k & 1) && cutout->shows(uv(bvh_.leaves()[leaf][k], u[k], v[k]))) return true;
+    }
+    return false;
   });
 }
 
@@ -115,7 +122,7 @@ Tracer::Hit Tracer::intersect(const Ray& ray, float far) const {
     const Ray local{part.shape_from_world.point(ray.origin), part.shape_from_world.vector(ray.direction), ray.near};
     TriangleSet::Hit hit;
     hit.t = limit;
-    if (!part.shape->intersect(local, hit)) return false;
+    if (!part.shape->intersect(local, hit, part.cutout)) return false;
     const bool wins = !best || hit.t < best.t - kTie || (hit.t <= best.t + kTie && index < best.part);
     if (wins) {
       best = {hit.t, hit.u, hit.v, index, hit.triangle};
@@ -130,7 +137,7 @@ bool Tracer::blocks(const Ray& ray, float far) const {
   return bvh_.traverse(ray, far, [&](std::uint32_t leaf) {
     const Placed& part = parts_[bvh_.leaves()[leaf][0]];
     return part.shape->blocks({part.shape_from_world.point(ray.origin), part.shape_from_world.vector(ray.direction),
-                               ray.near}, far);
+                               ray.near}, far, part.cutout);
   });
 }
 
@@ -144,6 +151,18 @@ void Tracer::normals(const Hit& hit, const Vec3& ray_direction, Vec3& flat, Vec3
   smooth = unit(part.normals_from_shape * blend, flat);
   if (glm::dot(flat, ray_direction) > 0) flat = -flat;
   if (glm::dot(smooth, flat) < 0) smooth = -smooth;
+}
+
+Vec2 Tracer::uv(const Hit& hit, float& share_per_length) const {
+  const Placed& part = parts_[hit.part];
+  const Mesh& mesh = part.shape->mesh();
+  const Triangle& t = mesh.triangles[hit.triangle];
+  const Vec3 a = part.world_from_shape.vector(mesh.positions[t[1]] - mesh.positions[t[0]]);
+  const Vec3 b = part.world_from_shape.vector(mesh.positions[t[2]] - mesh.positions[t[0]]);
+  const Vec2 p = mesh.uvs[t[1]] - mesh.uvs[t[0]], q = mesh.uvs[t[2]] - mesh.uvs[t[0]];
+  const float area = glm::length(glm::cross(a, b)), shown = std::abs(p.x * q.y - p.y * q.x);
+  share_per_length = area > 0 ? std::sqrt(shown / area) : 0;
+  return part.shape->uv(hit.triangle, hit.u, hit.v);
 }
 
 }  // namespace espalier

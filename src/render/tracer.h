@@ -8,6 +8,7 @@
 
 #include "model/mesh.h"
 #include "render/bvh.h"
+#include "render/texture_sampler.h"
 
 namespace espalier {
 
@@ -20,10 +21,16 @@ class TriangleSet {
     float t = 0, u = 0, v = 0;  // barycentric: (1 - u - v), u, v
     std::uint32_t triangle = Bvh::kNone;
   };
-  /// Lowers hit.t to the nearest hit before it, if there is one; true then.
-  bool intersect(const Ray& ray, Hit& hit) const;
+  /// Lowers hit.t to the nearest hit before it, if there is one; true then. Rays pass where a cutout shows nothing.
+  bool intersect(const Ray& ray, Hit& hit, const Cutout* cutout = nullptr) const;
   /// Whether anything lies between ray.near and far.
-  bool blocks(const Ray& ray, float far) const;
+  bool blocks(const Ray& ray, float far, const Cutout* cutout = nullptr) const;
+
+  /// The texture coordinates of a hit; the mesh must have some.
+  Vec2 uv(std::uint32_t triangle, float u, float v) const {
+    const Triangle& t = mesh_->triangles[triangle];
+    return (1 - u - v) * mesh_->uvs[t[0]] + u * mesh_->uvs[t[1]] + v * mesh_->uvs[t[2]];
+  }
 
   const Mesh& mesh() const { return *mesh_; }
   const Bounds& box() const { return bvh_.box(); }
@@ -46,6 +53,7 @@ struct Placed {
   Frame world_from_shape, shape_from_world;
   Mat3 normals_from_shape;       // to world, not normalised
   std::uint16_t material = 0;
+  const Cutout* cutout = nullptr;  // null: all is solid
 };
 
 class Tracer {
@@ -69,6 +77,9 @@ class Tracer {
 
   /// Unit normals at a hit: of the triangle, and interpolated. Both on the side that the ray comes from.
   void normals(const Hit& hit, const Vec3& ray_direction, Vec3& flat, Vec3& smooth) const;
+
+  /// Texture coordinates at a hit, and how much of the picture's side a unit of length in the world covers there.
+  Vec2 uv(const Hit& hit, float& share_per_length) const;
 
  private:
   std::vector<Placed> parts_;

@@ -112,7 +112,7 @@ LoadedDerivation load_derivation(const std::string& path, const std::string& gra
   return loaded;
 }
 
-AdaptedGenes export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor) {
+ExportReport export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor) {
   if (request.out.ends_with(".json") || request.out.ends_with(".png")) {
     throw Error(fmt::format("{}: export writes .glb, .obj, .ply or .stl", request.out));
   }
@@ -121,9 +121,9 @@ AdaptedGenes export_derivation(const ExportRequest& request, MeshSource& source,
       load_derivation(request.derivation, request.grammar, request.attributes);
   const MeshTable meshes = load_meshes(grammar, source);
   const std::vector<Mesh> no_ghosts;
-  ModelFiles files(*grammar.graph, meshes, no_ghosts, {1200, 900}, executor);
+  ModelFiles files(*grammar.graph, meshes, load_textures(grammar), no_ghosts, {1200, 900}, executor);
   files.write(derivation, request.out, export_provenance(request, original, grammar, derivation));
-  return adapted;
+  return {adapted, files.model().truncated};
 }
 
 }  // namespace espalier

@@ -39,7 +39,11 @@ struct ExportRequest {
   std::map<std::string, std::string> attributes;  // set anew; the derivation is adapted to them
   std::string out;                                // .glb .obj .ply .stl
 };
+struct ExportReport {
+  AdaptedGenes adapted;
+  bool truncated = false;  // the budget of details ran out: the model is not whole
+};
 /// Writes the model of a derivation. Throws Error.
-AdaptedGenes export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor);
+ExportReport export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor);
 
 }  // namespace espalier

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "io/file.h"
+#include "io/image_import.h"
 
 namespace espalier {
 
@@ -28,6 +29,24 @@ LoadedGrammar load_grammar(const std::string& path, const std::map<std::string, 
   grammar.checked = result.checked;
   grammar.graph = result.graph;
   return grammar;
+}
+
+TextureTable load_textures(const LoadedGrammar& grammar) {
+  const std::filesystem::path folder = std::filesystem::path(grammar.path).parent_path();
+  FileImageSource source;
+  TextureTable textures;
+  Diagnostics diagnostics;
+  for (const TextureRef& texture : image_textures(*grammar.graph)) {
+    try {
+      textures.add_file(texture.path, source.load((folder / texture.path).string()));
+    } catch (const Error& error) {
+      diagnostics.error("E0908", texture.span, error.what(), "paths are relative to the grammar's folder");
+    }
+  }
+  if (!diagnostics.has_errors()) return textures;
+  std::string report = render(diagnostics, grammar.sources);
+  while (report.ends_with('\n')) report.pop_back();
+  throw Error(report);
 }
 
 MeshTable load_meshes(const LoadedGrammar& grammar, MeshSource& source) {

@@ -8,6 +8,7 @@
 
 #include "grammar/compiler.h"
 #include "model/model.h"
+#include "model/texture_table.h"
 
 namespace espalier {
 
@@ -27,6 +28,9 @@ CompileResult compile_grammar_file(const std::string& path, const std::map<std::
 
 /// Throws Error holding all rendered diagnostics when the text has errors, or naming the file when it cannot be read.
 LoadedGrammar load_grammar(const std::string& path, const std::map<std::string, std::string>& attributes);
+
+/// The image files of a grammar; an Error shows the place in the grammar that names the file. Throws Error.
+TextureTable load_textures(const LoadedGrammar& grammar);
 
 /// The meshes of a grammar; files are taken relative to its folder. Throws Error.
 MeshTable load_meshes(const LoadedGrammar& grammar, MeshSource& source);

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "io/file.h"
+#include "model/texture_table.h"
 
 namespace espalier {
 namespace {
@@ -21,6 +22,15 @@ int climbs(const std::string& path) {
   int count = 0;
   for (const fs::path& part : fs::path(path).lexically_normal()) count += part == "..";
   return count;
+}
+
+/// Paths of the mesh and image files that a grammar names, as written.
+std::vector<std::string> files_named(const GeneratorGraph& graph) {
+  std::vector<std::string> paths;
+  for (const MeshRef& mesh : graph.meshes)
+    if (mesh.kind == MeshKind::file) paths.push_back(mesh.path);
+  for (const TextureRef& texture : image_textures(graph)) paths.push_back(texture.path);
+  return paths;
 }
 
 }  // namespace
@@ -43,15 +53,15 @@ std::string InputFiles::add(const std::string& name, std::string bytes) {
 
 void InputFiles::add_grammar(const LoadedGrammar& grammar) {
   int most_climbs = 0;
-  for (const MeshRef& mesh : grammar.graph->meshes) {
-    if (mesh.kind != MeshKind::file) continue;
-    if (fs::path(mesh.path).is_absolute()) {
-      throw Error(fmt::format("{}: mesh paths must be relative to the grammar's folder, got \"{}\"", grammar.path,
-                              mesh.path));
+  const std::vector<std::string> named = files_named(*grammar.graph);
+  for (const std::string& file : named) {
+    if (fs::path(file).is_absolute()) {
+      throw Error(fmt::format("{}: paths of meshes and images must be relative to the grammar's folder, got \"{}\"",
+                              grammar.path, file));
     }
-    most_climbs = std::max(most_climbs, climbs(mesh.path));
+    most_climbs = std::max(most_climbs, climbs(file));
   }
-  // The grammar keeps as many of its own folders as its meshes climb, so that "../meshes/x.obj" still leads there.
+  // The grammar keeps as many of its own folders as its files climb, so that "../meshes/x.obj" still leads there.
   const fs::path path = fs::absolute(grammar.path).lexically_normal();
   fs::path root = path.parent_path();
   for (int i = 0; i < most_climbs; ++i) root = root.parent_path();
@@ -62,9 +72,8 @@ void InputFiles::add_grammar(const LoadedGrammar& grammar) {
     const std::string name = add(name_for(fs::absolute(source.name)), source.text);
     if (grammar_name_.empty()) grammar_name_ = name;
   }
-  for (const MeshRef& mesh : grammar.graph->meshes) {
-    if (mesh.kind != MeshKind::file) continue;
-    const fs::path file = path.parent_path() / mesh.path;
+  for (const std::string& one : named) {
+    const fs::path file = path.parent_path() / one;
     add(name_for(file), read_file(file.string(), kMostMeshBytes));
   }
 }

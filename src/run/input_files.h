@@ -17,7 +17,8 @@ struct InputFile {
 
 class InputFiles {
  public:
-  /// Takes the grammar, its imports and the mesh files that it names, keeping where they lie relative to each other. Throws Error.
+  /// Takes the grammar, its imports and the mesh and image files that it names, keeping where they lie relative to each
+  /// other. Throws Error.
   void add_grammar(const LoadedGrammar& grammar);
   /// Takes a target mesh; the same file twice is stored once. Returns its name.
   std::string add_target(const std::string& path);

@@ -20,9 +20,15 @@ std::string derivation_document(const GeneratorGraph& graph, const Derivation& d
   return text + ",\n \"provenance\": " + to_json(provenance) + "}\n";
 }
 
-ModelFiles::ModelFiles(const GeneratorGraph& graph, const MeshTable& meshes, const std::vector<Mesh>& ghosts,
-                       std::array<std::uint32_t, 2> picture, Executor& executor)
-    : graph_(graph), meshes_(meshes), ghosts_(ghosts), picture_(picture), executor_(executor), expander_(graph) {}
+ModelFiles::ModelFiles(const GeneratorGraph& graph, const MeshTable& meshes, const TextureTable& textures,
+                       const std::vector<Mesh>& ghosts, std::array<std::uint32_t, 2> picture, Executor& executor)
+    : graph_(graph),
+      meshes_(meshes),
+      textures_(textures),
+      ghosts_(ghosts),
+      picture_(picture),
+      executor_(executor),
+      expander_(graph) {}
 
 void ModelFiles::write(const Derivation& derivation, const std::string& path, const Provenance& provenance) {
   if (path.ends_with(".json")) return write_file(path, derivation_document(graph_, derivation, provenance));
@@ -31,14 +37,14 @@ void ModelFiles::write(const Derivation& derivation, const std::string& path, co
     return write_png(path, drawn.width, drawn.height, drawn.rgb, provenance);
   }
   expander_.expand(derivation, ExpandTo::full, model_);
-  export_model(path, model_, meshes_, graph_.materials, provenance);
+  export_model(path, model_, meshes_, Surfaces(graph_, model_, textures_), provenance);
 }
 
 Picture ModelFiles::picture(const Derivation& derivation, std::array<std::uint32_t, 2> size) {
   expander_.expand(derivation, ExpandTo::full, model_);
   RenderSettings settings;
   settings.width = size[0], settings.height = size[1];
-  return render(model_, meshes_, graph_.materials, ghosts_, settings, executor_);
+  return render(model_, meshes_, Surfaces(graph_, model_, textures_), ghosts_, settings, executor_);
 }
 
 }  // namespace espalier

@@ -8,15 +8,20 @@
 #include "base/executor.h"
 #include "io/provenance.h"
 #include "model/expand.h"
+#include "model/texture_table.h"
 #include "render/render.h"
 
 namespace espalier {
 
+/// What to say of models whose details did not fit (Model::truncated).
+inline constexpr const char* kTruncated =
+    "truncated: the details ended at 1 000 000 parts and calls, or 16 000 000 turns of loops; the rest is left out";
+
 class ModelFiles {
  public:
   /// All must outlive it. `ghosts`: target meshes shown in pictures; `picture`: width and height.
-  ModelFiles(const GeneratorGraph& graph, const MeshTable& meshes, const std::vector<Mesh>& ghosts,
-             std::array<std::uint32_t, 2> picture, Executor& executor);
+  ModelFiles(const GeneratorGraph& graph, const MeshTable& meshes, const TextureTable& textures,
+             const std::vector<Mesh>& ghosts, std::array<std::uint32_t, 2> picture, Executor& executor);
 
   /// By the ending of `path`: .glb .obj .ply .stl with details, .png, .json (the derivation). Throws Error.
   void write(const Derivation& derivation, const std::string& path, const Provenance& provenance);
@@ -27,6 +32,7 @@ class ModelFiles {
  private:
   const GeneratorGraph& graph_;
   const MeshTable& meshes_;
+  TextureTable textures_;
   const std::vector<Mesh>& ghosts_;
   std::array<std::uint32_t, 2> picture_;
   Executor& executor_;

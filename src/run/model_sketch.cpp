@@ -31,7 +31,7 @@ double distance(const ModelSketch& a, const ModelSketch& b) {
 }
 
 ModelSketcher::ModelSketcher(const GeneratorGraph& graph, const Bounds& box, bool full)
-    : full_(full), min_(box.min), expander_(graph) {
+    : full_(full), min_(box.min), expander_(graph, {.make_materials = false}) {
   const Vec3 size = box.size();
   cell_ = std::max({size.x, size.y, size.z}) / kCells;
   CHECK(cell_ > 0);

@@ -21,7 +21,7 @@ std::vector<Instance> probe_instances(const Setup& setup) {
   const GeneLimits& limits = setup.scene.search.ga.genes;
   const std::uint32_t longest = std::max(limits.min, std::min(limits.max, kLongestProbe));
   std::vector<Instance> all;
-  Expander expander(graph);
+  Expander expander(graph, {.make_materials = false});
   Model model;
   for (std::uint32_t i = 0; i < kProbes; ++i) {
     RandomStream random({setup.scene.seed, Purpose::probe, 0, i, 0});

@@ -73,6 +73,13 @@ std::string without_times(const std::string& text) {
   return kept;
 }
 
+// The file that is written together with this one: the .obj of an .mtl and of a texture.
+std::string written_with(const std::string& filename) {
+  const std::size_t texture = filename.rfind("-texture-");
+  if (filename.ends_with(".png") && texture != std::string::npos) return filename.substr(0, texture) + ".obj";
+  return filename.ends_with(".mtl") ? fs::path(filename).stem().string() + ".obj" : filename;
+}
+
 // Writes the file again with the set's own writer and compares bytes.
 template <typename Set>
 void compare_file(const Job& job, Set& set, ReproduceReport& report) {
@@ -81,9 +88,7 @@ void compare_file(const Job& job, Set& set, ReproduceReport& report) {
   const TemporaryFolder temporary;
   const std::string name = p.settings_folder == ".." ? "alternatives/" + filename : filename;
   const std::vector<std::string> names = set.names();
-  // The .mtl is written with its .obj.
-  const std::string target =
-      filename.ends_with(".mtl") ? fs::path(filename).stem().string() + ".obj" : filename;
+  const std::string target = written_with(filename);
   if (p.made_by != "export" && std::find(names.begin(), names.end(), name) != names.end()) {
     set.write(name, temporary.file(target));
   } else {

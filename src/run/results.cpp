@@ -31,7 +31,7 @@ std::string caption(const Individual& individual, std::size_t index, double opti
 ResultWriter::ResultWriter(const Setup& setup, const SearchResult& result, Executor& executor)
     : setup_(setup),
       result_(result),
-      files_(setup.graph(), setup.meshes, setup.targets, setup.scene.output.picture, executor) {
+      files_(setup.graph(), setup.meshes, setup.textures, setup.targets, setup.scene.output.picture, executor) {
   settings_ = fmt::format(
       "# The settings of a run of Espalier {}, all written out. `espalier run` searches with them anew;\n"
       "# `espalier reproduce` on a file of this folder replays its steps and compares.\n{}",

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "base/version.h"
+#include "derivation/moves.h"
 #include "derivation/sample.h"
 #include "io/file.h"
 #include "io/image.h"
@@ -16,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kMostSamples = 1000;
+constexpr std::uint32_t kMostSamples = 1000, kMostColumns = 100;
 constexpr const char* kSheet = "samples.png";
 
 }  // namespace
@@ -25,7 +27,9 @@ std::string to_toml(const SampleRequest& r) {
   std::string text = fmt::format("espalier_sample = 1\ngrammar = {}\nseed = {}\ncount = {}\n", quote_toml(r.grammar),
                                  r.seed, r.count);
   if (r.grow) text += fmt::format("grow = {}\n", *r.grow);
-  text += fmt::format("picture = [{}, {}]\n", r.picture[0], r.picture[1]);
+  if (r.genes) text += fmt::format("genes = {}\n", *r.genes);
+  text += fmt::format("picture = [{}, {}]\ncell = [{}, {}]\n", r.picture[0], r.picture[1], r.cell[0], r.cell[1]);
+  if (r.columns > 0) text += fmt::format("columns = {}\n", r.columns);
   if (!r.attributes.empty()) text += "\n[attributes]\n";
   for (const auto& [name, value] : r.attributes) text += fmt::format("{} = {}\n", quote_toml(name), quote_toml(value));
   return text;
@@ -43,9 +47,15 @@ SampleRequest parse_sample_request(std::string_view text, const std::string& nam
   r.seed = s.whole("seed", 0, std::uint64_t{1} << 62).value_or(r.seed);
   r.count = static_cast<std::uint32_t>(s.whole("count", 1, kMostSamples).value_or(r.count));
   if (const auto grow = s.whole("grow", 0, 1'000'000)) r.grow = static_cast<std::uint32_t>(*grow);
-  if (const auto size = s.wholes("picture", 2, 16, 8192)) {
-    r.picture = {static_cast<std::uint32_t>((*size)[0]), static_cast<std::uint32_t>((*size)[1])};
-  }
+  if (const auto genes = s.whole("genes", 1, 1'000'000)) r.genes = static_cast<std::uint32_t>(*genes);
+  if (r.grow && r.genes) s.fail("genes", "cannot stand beside grow");
+  const auto read_size = [&](const char* key, std::uint64_t most, std::array<std::uint32_t, 2>& size) {
+    const auto read = s.wholes(key, 2, 16, most);
+    if (read) size = {static_cast<std::uint32_t>((*read)[0]), static_cast<std::uint32_t>((*read)[1])};
+  };
+  read_size("picture", 8192, r.picture);
+  read_size("cell", 1024, r.cell);
+  r.columns = static_cast<std::uint32_t>(s.whole("columns", 0, kMostColumns).value_or(0));
   if (const TomlValue* table = s.table("attributes")) {
     TomlSection attributes(*table, name, "attributes");
     for (const auto& [key, value] : table->members) r.attributes[key] = attributes.text(key).value_or("");
@@ -62,28 +72,41 @@ SampleSet::SampleSet(const SampleRequest& request, MeshSource& source, Executor&
   request_.grammar = inputs_.grammar_name();
   settings_ = fmt::format("# Samples drawn by Espalier {}.\n{}", kVersion, to_toml(request_));
   draw();
-  files_.emplace(*grammar_.graph, meshes_, no_ghosts_, request_.picture, executor);
+  files_.emplace(*grammar_.graph, meshes_, load_textures(grammar_), no_ghosts_, request_.picture, executor);
+}
+
+Derivation SampleSet::draw_one(RandomStream& random) {
+  const GeneratorGraph& graph = *grammar_.graph;
+  if (!request_.grow && !request_.genes) {
+    SampleResult result = sample(graph, random);
+    truncated_ += result.truncated;
+    return std::move(result.derivation);
+  }
+  Derivation derivation = seedling(graph, random);
+  if (request_.grow) {
+    for (std::uint32_t step = 0; step < *request_.grow; ++step) {
+      if (!grow_open_slot(graph, derivation, random)) break;
+    }
+  } else {
+    if (!close_open_slots(graph, derivation, random)) throw Error("the start's required slots cannot be grown");
+    while (derivation.size() < *request_.genes && espalier::grow(graph, derivation, {}, random)) {}
+    short_ += derivation.size() < *request_.genes;
+  }
+  return derivation;
 }
 
 void SampleSet::draw() {
-  const GeneratorGraph& graph = *grammar_.graph;
-  std::size_t truncated = 0;
   for (std::uint32_t i = 0; i < request_.count; ++i) {
     RandomStream random({request_.seed, Purpose::sample, 0, i, 0});
-    if (request_.grow) {
-      derivations_.push_back(seedling(graph, random));
-      for (std::uint32_t step = 0; step < *request_.grow; ++step) {
-        if (!grow_open_slot(graph, derivations_.back(), random)) break;
-      }
-    } else {
-      SampleResult result = sample(graph, random);
-      truncated += result.truncated;
-      derivations_.push_back(std::move(result.derivation));
-    }
+    derivations_.push_back(draw_one(random));
   }
-  if (truncated > 0) {
+  if (truncated_ > 0) {
     warnings_.push_back(fmt::format("{} of {} samples reached the budget of genes; the rest of them stays open",
-                                    truncated, request_.count));
+                                    truncated_, request_.count));
+  }
+  if (short_ > 0) {
+    warnings_.push_back(fmt::format("{} of {} samples could not grow to {} genes", short_, request_.count,
+                                    *request_.genes));
   }
 }
 
@@ -124,10 +147,12 @@ void SampleSet::write_individual(std::size_t index, const std::string& path, con
 void SampleSet::write_sheet(const std::string& path) {
   std::vector<SheetCell> cells;
   for (std::size_t i = 0; i < size(); ++i) {
-    cells.push_back({files_->picture(derivations_[i], {400, 300}),
+    cells.push_back({files_->picture(derivations_[i], request_.cell),
                      fmt::format("{}  {} genes", i + 1, derivations_[i].size())});
+    if (files_->model().truncated) warnings_.push_back(fmt::format("sample {} is {}", i + 1, kTruncated));
   }
-  const Picture sheet = contact_sheet(cells, fmt::format("{}, seed {}", grammar_.graph->name, request_.seed));
+  const Picture sheet = contact_sheet(cells, fmt::format("{}, seed {}", grammar_.graph->name, request_.seed),
+                                      request_.columns);
   write_png(path, sheet.width, sheet.height, sheet.rgb, provenance(0));
 }
 

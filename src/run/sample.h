@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/executor.h"
+#include "base/random.h"
 #include "run/input_files.h"
 #include "run/model_files.h"
 
@@ -22,7 +23,10 @@ struct SampleRequest {
   std::uint32_t count = 16;                       // 1..1000
   std::uint64_t seed = 1;
   std::optional<std::uint32_t> grow;              // this many steps of growth from a seedling, not the whole prior
+  std::optional<std::uint32_t> genes;             // grown by moves to this many genes, as searches start; excludes grow
   std::array<std::uint32_t, 2> picture = {800, 600};
+  std::array<std::uint32_t, 2> cell = {400, 300};  // of a model on the sheet
+  std::uint32_t columns = 0;                       // of the sheet; 0 = as near to 4:3 as the count allows
 };
 
 inline constexpr const char* kSampleMarker = "samples.toml";
@@ -46,6 +50,7 @@ class SampleSet {
 
  private:
   void draw();
+  Derivation draw_one(RandomStream& random);
   void write_sheet(const std::string& path);
 
   SampleRequest request_;  // its grammar names the copy
@@ -55,6 +60,7 @@ class SampleSet {
   std::string settings_;
   std::vector<Derivation> derivations_;
   std::vector<std::string> warnings_;
+  std::size_t truncated_ = 0, short_ = 0;  // samples that met the budget of genes; that could not grow to `genes`
   std::vector<Mesh> no_ghosts_;
   std::optional<ModelFiles> files_;
 };

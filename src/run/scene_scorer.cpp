@@ -14,7 +14,8 @@ SceneScorer::SceneScorer(const GeneratorGraph& graph, const Objective& objective
       view_(objective.view()) {
   workers_.reserve(static_cast<std::size_t>(executor.workers()));
   for (int i = 0; i < executor.workers(); ++i) {
-    workers_.push_back({Expander(graph), Model(), Objective::Scratch(objective)});
+    // No target looks at materials.
+    workers_.push_back({Expander(graph, {.make_materials = false}), Model(), Objective::Scratch(objective)});
   }
 }
 

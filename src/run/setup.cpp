@@ -94,6 +94,7 @@ std::unique_ptr<Setup> set_up(const Scene& scene, MeshSource& source) {
   setup->grammar = load_grammar(resolve(scene, scene.grammar), scene.attributes);
   if (!setup->grammar.warnings.empty()) setup->warnings.push_back(setup->grammar.warnings);
   setup->meshes = load_meshes(setup->grammar, source);
+  setup->textures = load_textures(setup->grammar);
   setup->inputs.add_grammar(setup->grammar);
   setup->scene.grammar = setup->inputs.grammar_name();
   for (std::size_t i = 0; i < scene.volume.meshes.size(); ++i) {

@@ -15,6 +15,7 @@ struct Setup {
   Scene scene;  // as it lies in the run folder: its paths name the copies
   LoadedGrammar grammar;
   MeshTable meshes;
+  TextureTable textures;
   std::vector<Mesh> targets;  // in model space, order of scene.volume.meshes
   Objective objective;
   const VolumeTarget* volume = nullptr;  // in the objective

@@ -78,7 +78,6 @@ TEST_F(GraphAndExplain, BadInputIsNamed) {
       {{"graph", "pile.esp", "-o", "none/pile.svg"}, "none/pile.svg"},
       {{"graph", "pile.esp", "--grammar", "pile.esp"}, "--grammar"},
       {{"graph", "pile.esp", "-D", "tallest=1"}, "tallest"},
-      {{"graph", "s/01.derivation.json", "-D", "widest=2"}, "-D goes with --grammar"},
       {{"graph", "s/01.derivation.json", "--grammar", "other.esp"}, "made by \"pile\""},
       {{"explain", "none.esp"}, "none.esp"},
       {{"explain", "broken.esp"}, "E0113"},

@@ -54,6 +54,18 @@ TEST(ContactSheet, IsNearlyFourToThree) {
   }
 }
 
+TEST(ContactSheet, HasTheColumnsAskedFor) {
+  const std::vector<SheetCell> cells(8, {plain(200, 150, 0), "x"});
+  const Picture row = contact_sheet(cells, "t", 8), column = contact_sheet(cells, "t", 1);
+  const Picture four = contact_sheet(cells, "t", 4);
+  EXPECT_GT(row.width, 8 * 200u);
+  EXPECT_LT(row.height, 2 * 150u);
+  EXPECT_LT(column.width, 2 * 200u);
+  EXPECT_GT(column.height, 8 * 150u);
+  EXPECT_TRUE(four.width > 4 * 200u && four.width < 5 * 200u);
+  EXPECT_TRUE(holds(contact_sheet(cells, "t", 20), cells[7].picture)) << "more columns than cells";
+}
+
 TEST(ContactSheet, WritesCaptionsBelow) {
   const Picture without = contact_sheet({{plain(200, 150, 200), ""}}, "");
   const Picture with = contact_sheet({{plain(200, 150, 200), "best of all"}}, "");

@@ -12,6 +12,7 @@ namespace espalier {
 namespace {
 
 using testing::box_obj;
+using testing::read_text;
 using testing::read_tree;
 using testing::TemporaryFolder;
 using testing::write_pile;
@@ -39,6 +40,13 @@ TEST(SampleRequest, WrittenOutItReadsBackEqual) {
   EXPECT_EQ(to_toml(again), to_toml(request));
   EXPECT_EQ(again.attributes, request.attributes);
   EXPECT_EQ(again.grow, request.grow);
+  request.grow.reset(), request.genes = 30, request.cell = {80, 60}, request.columns = 4;
+  const SampleRequest third = parse_sample_request(to_toml(request), "s", "");
+  EXPECT_EQ(to_toml(third), to_toml(request));
+  EXPECT_EQ(third.genes, 30u);
+  EXPECT_EQ(third.cell, request.cell);
+  EXPECT_EQ(third.columns, 4u);
+  EXPECT_THROW(parse_sample_request("espalier_sample = 1\ngrammar = \"g\"\ngrow = 1\ngenes = 2", "s", ""), Error);
   EXPECT_THROW(parse_sample_request("espalier_sample = 1\ngrammar = \"g\"\ncount = 0", "s", ""), Error);
   EXPECT_THROW(parse_sample_request("espalier_sample = 1\ngrammar = \"g\"\nfoo = 0", "s", ""), Error);
 }
@@ -76,6 +84,58 @@ TEST(Sample, GrowStopsAfterItsSteps) {
   EXPECT_EQ(SampleSet(request, source, *executor).derivation(0).size(), 1u);
   request.grow = 1;
   EXPECT_EQ(SampleSet(request, source, *executor).derivation(0).size(), 2u);
+}
+
+TEST(Sample, GenesGrowsToThatMany) {
+  const TemporaryFolder folder;
+  write_pile(folder);
+  SampleRequest request = request_in(folder);
+  AssimpMeshSource source;
+  const auto executor = make_serial_executor();
+  request.genes = 5;
+  const SampleSet samples(request, source, *executor);
+  for (std::size_t i = 0; i < samples.size(); ++i) EXPECT_GE(samples.derivation(i).size(), 5u);
+  EXPECT_TRUE(samples.warnings().empty());
+}
+
+TEST(Sample, TheSheetHasTheColumnsAndCellsAskedFor) {
+  const TemporaryFolder folder;
+  write_pile(folder);
+  SampleRequest request = request_in(folder);
+  request.cell = {200, 150}, request.columns = 3;
+  sample_into(request, folder / "row");
+  request.columns = 1;
+  sample_into(request, folder / "column");
+  const auto size = [&](const char* name) {  // a PNG's header holds them, most significant byte first
+    const std::string text = read_text(folder / name);
+    const auto whole = [&](std::size_t at) {
+      const auto high = static_cast<unsigned char>(text.at(at)), low = static_cast<unsigned char>(text.at(at + 1));
+      return static_cast<unsigned>(high << 8 | low);
+    };
+    return std::array<unsigned, 2>{whole(18), whole(22)};
+  };
+  EXPECT_GT(size("row/samples.png")[0], 600u);
+  EXPECT_LT(size("row/samples.png")[1], 300u);
+  EXPECT_LT(size("column/samples.png")[0], 300u);
+  EXPECT_GT(size("column/samples.png")[1], 450u);
+}
+
+TEST(Sample, SaysWhichModelsAreNotWhole) {
+  const TemporaryFolder folder;
+  write_pile(folder);
+  testing::write_text(folder / "endless.esp", R"(grammar endless 1
+start S
+rule S { few ~ chance(0.5)  emit box  if few { emit box } else { detail D } }
+detail D { for i in 0..9999 { for k in 0..9999 { if k < 0 { emit box } } } }
+)");
+  SampleRequest request = request_in(folder);
+  request.grammar = "endless.esp", request.count = 6;
+  AssimpMeshSource source;
+  const auto warnings = write_samples(request, folder / "out", source, *make_serial_executor());
+  EXPECT_TRUE(!warnings.empty() && warnings.size() < 6) << warnings.size();
+  for (const std::string& warning : warnings) EXPECT_THAT(warning, ::testing::HasSubstr("is truncated"));
+  request.grammar = "pile.esp";
+  EXPECT_TRUE(write_samples(request, folder / "whole", source, *make_serial_executor()).empty());
 }
 
 TEST(Sample, AttributesShapeTheModels) {

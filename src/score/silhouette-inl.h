@@ -1,0 +1,154 @@
+// Drawing outlines into a canvas of pixels and weighing what is covered, eight rows at a time. Included once per target.
+
+#if defined(ESPALIER_SCORE_SILHOUETTE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ESPALIER_SCORE_SILHOUETTE_INL_H
+#undef ESPALIER_SCORE_SILHOUETTE_INL_H
+#else
+#define ESPALIER_SCORE_SILHOUETTE_INL_H
+#endif
+
+#include <algorithm>
+
+#include "score/eight-inl.h"
+#include "score/outline.h"
+#include "score/silhouette_kernel.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace espalier {
+namespace HWY_NAMESPACE {
+
+inline constexpr float kNowhere = 1e9f;  // still an int
+
+/// The least and greatest column of eight rows.
+struct RowSpans {
+  F8 low, high;
+
+  HWY_INLINE RowSpans() : low(F8::all(kNowhere)), high(F8::all(-kNowhere)) {}
+  HWY_INLINE void add(const OutlineEdge& edge, const F8& y) {
+    const F8 x = smaller(larger(F8::all(edge.x) + F8::all(edge.slope) * (y - F8::all(edge.y_low)), F8::all(edge.x_least)),
+                         F8::all(edge.x_most));
+    const F8 outside = less(y, F8::all(edge.y_low)) | less(F8::all(edge.y_high), y);
+    low = choose(outside, low, smaller(low, x));
+    high = choose(outside, high, larger(high, x));
+  }
+  HWY_INLINE void add(const OutlineEllipse& e, const F8& y) {
+    const F8 v = y - F8::all(e.y), t = v * F8::all(e.per_half_height), rest = F8::all(1) - t * t;
+    const F8 half = F8::all(e.half_width) * square_root(larger(rest, F8::all(0)));
+    const F8 middle = F8::all(e.x) + F8::all(e.slope) * v, outside = less(rest, F8::all(0));
+    low = choose(outside, low, smaller(low, middle - half));
+    high = choose(outside, high, larger(high, middle + half));
+  }
+};
+
+HWY_INLINE I8 column_from(const F8& x, std::int32_t origin, std::int32_t least, std::int32_t most) {
+  // Relative to the part, so that single precision does not tell on the far side of an image.
+  const I8 column = truncate(rounded_up(x - F8::all(0.5f))) + I8::all(origin);
+  return smaller(larger(column, I8::all(least)), I8::all(most));
+}
+
+/// Sets the pixels whose middles lie within the outline.
+HWY_INLINE void draw_outline(const Outline& outline, PixelCanvas& canvas) {
+  const std::int32_t first_word = outline.column[0] >> 5, last_word = (outline.column[1] - 1) >> 5;
+  for (std::int32_t tile = outline.row[0] >> 3; tile <= (outline.row[1] - 1) >> 3; ++tile) {
+    const F8 y = lanes_from(static_cast<float>(tile * 8 - outline.origin[1]) + 0.5f);
+    const float first = static_cast<float>(tile * 8 - outline.origin[1]), last = first + 8;
+    RowSpans spans;
+    for (const OutlineEdge& edge : outline.edges)
+      if (edge.y_low < last && edge.y_high > first) spans.add(edge, y);
+    for (const OutlineEllipse& ellipse : outline.ellipses)
+      if (ellipse.y_low < last && ellipse.y_high > first) spans.add(ellipse, y);
+    // Rows of the last tile that lie below the image stay empty.
+    const F8 below = F8::all(static_cast<float>(outline.row[1] - outline.origin[1]));
+    spans.high = choose(less(y, below), spans.high, F8::all(-kNowhere));
+    const I8 low = column_from(spans.low, outline.origin[0], outline.column[0], outline.column[1]);
+    const I8 high = larger(column_from(spans.high, outline.origin[0], outline.column[0], outline.column[1]), low);
+    std::uint32_t* words = canvas.words.data() +
+                           (static_cast<std::size_t>(tile) * canvas.across + static_cast<std::size_t>(first_word)) * 8;
+    for (std::int32_t word = first_word; word <= last_word; ++word, words += 8) {
+      const I8 skip = I8::all(32 * word), zero = I8::all(0);
+      const U8 mask = low_bits_but(larger(low - skip, zero)) ^ low_bits_but(larger(high - skip, zero));
+      (U8::load(words) | mask).store(words);
+    }
+  }
+}
+
+HWY_INLINE U8 population(const U8& a) {
+  U8 r;
+  for (std::size_t i = 0; i < r.kBlocks; ++i) r.block[i] = hn::PopulationCount(a.block[i]);
+  return r;
+}
+
+HWY_INLINE std::uint64_t total(const U8& a) {
+  alignas(32) std::uint32_t lane[8];
+  a.store(lane);
+  std::uint64_t sum = 0;
+  for (const std::uint32_t v : lane) sum += v;
+  return sum;
+}
+
+HWY_INLINE bool any(const U8& a) {
+  alignas(32) std::uint32_t lane[8];
+  a.store(lane);
+  std::uint32_t all = 0;
+  for (const std::uint32_t v : lane) all |= v;
+  return all != 0;
+}
+
+/// The degrees of the pixels of one tile that `bits` names; at most 256 * 65535.
+HWY_INLINE std::uint64_t weigh(const U8& bits, const std::int32_t* degrees) {
+  I8 sum = I8::all(0);
+  const I8 zero = I8::all(0);
+  U8 left = bits;
+  for (int column = 0; column < 32; ++column, degrees += 8) {
+    // The highest bit of a lane is its sign, and the next column is shifted there.
+    sum = sum + choose(less(to_int(left), zero), I8::load(degrees), zero);
+    for (std::size_t i = 0; i < U8::kBlocks; ++i) left.block[i] = hn::Add(left.block[i], left.block[i]);
+  }
+  return sum_of(sum);
+}
+
+HWY_INLINE void sweep_uniform(PixelCanvas& canvas, const WeightTiles& weights, SilhouetteCounts& counts) {
+  U8 covered = U8::all(0), wanted = U8::all(0), free = U8::all(0);
+  const U8 zero = U8::all(0);
+  for (std::size_t at = 0; at < canvas.words.size(); at += 8) {
+    const U8 bits = U8::load(canvas.words.data() + at);
+    zero.store(canvas.words.data() + at);
+    covered = covered + population(bits);
+    wanted = wanted + population(bits & U8::load(weights.wanted.words.data() + at));
+    free = free + population(bits & U8::load(weights.free.words.data() + at));
+  }
+  counts.covered = total(covered), counts.wanted = total(wanted), counts.free = total(free);
+  counts.wanted_sum = counts.wanted * static_cast<std::uint64_t>(weights.wanted_degree);
+  counts.free_sum = counts.free * static_cast<std::uint64_t>(weights.free_degree);
+}
+
+HWY_INLINE void sweep_graded(PixelCanvas& canvas, const WeightTiles& weights, SilhouetteCounts& counts) {
+  U8 covered = U8::all(0), wanted = U8::all(0), free = U8::all(0);
+  const U8 zero = U8::all(0);
+  for (std::size_t at = 0; at < canvas.words.size(); at += 8) {
+    const U8 bits = U8::load(canvas.words.data() + at);
+    if (!any(bits)) continue;
+    zero.store(canvas.words.data() + at);
+    const U8 all_wanted = U8::load(weights.wanted.words.data() + at), all_free = U8::load(weights.free.words.data() + at);
+    const U8 want = bits & all_wanted, leave = bits & all_free;
+    covered = covered + population(bits);
+    wanted = wanted + population(want);
+    free = free + population(leave);
+    const std::int32_t* degrees = weights.degrees.data() + at * 32;
+    if (any(want)) {
+      counts.wanted_sum += any(want ^ all_wanted) ? weigh(want, degrees)
+                                                  : static_cast<std::uint64_t>(weights.wanted_of_tile[at / 8]);
+    }
+    if (any(leave)) {
+      counts.free_sum += any(leave ^ all_free) ? weigh(leave, degrees)
+                                               : static_cast<std::uint64_t>(weights.free_of_tile[at / 8]);
+    }
+  }
+  counts.covered = total(covered), counts.wanted = total(wanted), counts.free = total(free);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace espalier
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

@@ -1,0 +1,109 @@
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL)  // see volume_kernel.cpp
+#define HWY_COMPILE_ALL_ATTAINABLE
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "score/silhouette_kernel.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+
+#include <hwy/highway.h>
+
+#include "base/check.h"
+#include "score/silhouette-inl.h"
+#include "score/silhouette_kernel.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace espalier {
+namespace HWY_NAMESPACE {
+
+void draw_by_pixel(const Caster& caster, const Instance& instance, const Projection& projection,
+                   const Outline& outline, PixelCanvas& canvas) {
+  for (std::int32_t row = outline.row[0]; row < outline.row[1]; ++row)
+    for (std::int32_t column = outline.column[0]; column < outline.column[1]; ++column)
+      if (meets(caster, instance, ray_through(projection, column + 0.5, row + 0.5)))
+        canvas.set(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
+}
+
+void draw_silhouette(const std::vector<Caster>& casters, const Projection& projection,
+                     std::span<const Instance> instances, VolumeView view, SilhouetteScratch& scratch) {
+  OutlineMaker& maker = scratch.maker;
+  for (const Instance& instance : instances) {
+    if (!(view == VolumeView::full ? in_full(instance) : in_parts(instance))) continue;
+    const Caster& caster = casters[instance.mesh];
+    switch (maker.set(caster, instance)) {
+      case OutlineMaker::Result::nothing: break;
+      case OutlineMaker::Result::outline: draw_outline(maker.outline(), scratch.canvas); break;
+      case OutlineMaker::Result::triangles:
+        for (std::size_t i = 0; i < maker.triangles(); ++i)
+          if (maker.triangle(i)) draw_outline(maker.outline(), scratch.canvas);
+        break;
+      case OutlineMaker::Result::by_pixel:
+        draw_by_pixel(caster, instance, projection, maker.outline(), scratch.canvas);
+        break;
+    }
+  }
+}
+
+void sweep_silhouette(PixelCanvas& canvas, const WeightTiles& weights, SilhouetteCounts& counts) {
+  weights.graded ? sweep_graded(canvas, weights, counts) : sweep_uniform(canvas, weights, counts);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace espalier
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace espalier {
+
+HWY_EXPORT(draw_silhouette);
+HWY_EXPORT(sweep_silhouette);
+
+WeightTiles::WeightTiles(const WeightImage& image)
+    : wanted(image.width, image.height), free(image.width, image.height) {
+  const auto note = [&](std::int32_t degree, std::int32_t& alike, std::uint64_t& pixels, std::uint64_t& sum) {
+    if (alike == 0) alike = degree;
+    graded |= alike != degree;
+    ++pixels;
+    sum += static_cast<std::uint64_t>(degree);
+  };
+  for (std::uint32_t row = 0; row < image.height; ++row) {
+    for (std::uint32_t column = 0; column < image.width; ++column) {
+      const std::int32_t degree = image.at(column, row);
+      if (degree > 0) wanted.set(column, row), note(degree, wanted_degree, all.wanted, all.wanted_sum);
+      if (degree < 0) free.set(column, row), note(-degree, free_degree, all.free, all.free_sum);
+    }
+  }
+  all.covered = std::uint64_t{image.width} * image.height;
+  if (!graded) return;
+  degrees.resize(wanted.words.size() * 32);
+  wanted_of_tile.resize(wanted.tiles());
+  free_of_tile.resize(wanted.tiles());
+  for (std::uint32_t row = 0; row < image.height; ++row) {
+    for (std::uint32_t column = 0; column < image.width; ++column) {
+      const std::int32_t degree = image.at(column, row);
+      const std::size_t tile = wanted.word_index(column, row) / 8;
+      degrees[(tile * 32 + column % 32) * 8 + row % 8] = std::abs(degree);
+      (degree > 0 ? wanted_of_tile : free_of_tile)[tile] += std::abs(degree);
+    }
+  }
+}
+
+SilhouetteKernel::SilhouetteKernel(const Projection& projection, std::vector<Caster> casters, const WeightImage& image)
+    : projection_(projection), casters_(std::move(casters)), weights_(image) {
+  CHECK(image.width == projection.width && image.height == projection.height);
+}
+
+void SilhouetteKernel::draw(std::span<const Instance> instances, VolumeView view, SilhouetteScratch& scratch) const {
+  HWY_DYNAMIC_DISPATCH(draw_silhouette)(casters_, projection_, instances, view, scratch);
+}
+
+SilhouetteCounts SilhouetteKernel::sweep(SilhouetteScratch& scratch) const {
+  SilhouetteCounts counts;
+  HWY_DYNAMIC_DISPATCH(sweep_silhouette)(scratch.canvas, weights_, counts);
+  return counts;
+}
+
+}  // namespace espalier
+
+#endif  // HWY_ONCE
