@@ -1,12 +1,21 @@
 // Volume scoring on a 100 x 200 x 100 grid: drawing into two planes, overlap included, and the sweep against a target,
-// beside the slow reference. `covered` tells how many voxels a model fills.
+// beside the slow reference. `covered` tells how many voxels a model fills. And all limits on a spaceship of 500 genes,
+// beside its expansion.
 
 #include <benchmark/benchmark.h>
 
+#include <fstream>
+#include <sstream>
 #include <vector>
 
+#include "base/check.h"
 #include "base/random.h"
+#include "derivation/moves.h"
+#include "derivation/sample.h"
+#include "grammar/compiler.h"
+#include "model/expand.h"
 #include "model/model.h"
+#include "score/limit_target.h"
 #include "score/reference_volume.h"
 #include "score/volume_kernel.h"
 
@@ -122,6 +131,62 @@ void volume_reference(benchmark::State& state) {
   state.SetLabel(kNames[state.range(0)]);
 }
 BENCHMARK(volume_reference)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
+
+struct Spaceship {
+  std::shared_ptr<const GeneratorGraph> graph;
+  MeshTable meshes;
+  Derivation derivation;
+
+  Spaceship() {
+    std::ifstream file(std::string(ESPALIER_SOURCE_DIR) + "/grammars/spaceship.esp");
+    std::stringstream text;
+    text << file.rdbuf();
+    graph = compile_grammar({"spaceship.esp", text.str(), {}}).graph;
+    CHECK(graph);
+    NoFiles files;
+    meshes = MeshTable(*graph, "", files);
+    RandomStream random({1, Purpose::test});
+    derivation = seedling(*graph, random);
+    close_open_slots(*graph, derivation, random);
+    while (derivation.size() < 500) CHECK(grow(*graph, derivation, {}, random));
+  }
+};
+
+// 0: expansion alone; 1: with a limit on every measure; 2 to 5: limits alone, of a model that is there.
+struct LimitCase {
+  const char* what;
+  bool (*limited)(Measure);
+};
+constexpr LimitCase kCases[] = {
+    {"expansion alone", [](Measure) { return false; }},
+    {"expansion and all limits", [](Measure) { return true; }},
+    {"genes, depth, balance", [](Measure m) { return facts_of(m).by_genes; }},
+    {"parts, triangles", [](Measure m) { return m == Measure::parts || m == Measure::triangles; }},
+    {"height, spread", [](Measure m) { return m == Measure::height || m == Measure::spread; }},
+    {"volume", [](Measure m) { return m == Measure::volume; }},
+};
+
+void limits(benchmark::State& state) {
+  static const Spaceship ship;
+  Limits all;
+  for (const Measure measure : kAllMeasures) {
+    if (!kCases[state.range(0)].limited(measure)) continue;
+    all[measure] = {.min = 0, .max = facts_of(measure).highest, .from = 0.1, .to = 1e4, .weight = 1};
+  }
+  const LimitTarget target(all, ship.meshes, VolumeView::full);
+  const auto scratch = target.make_scratch();
+  Expander expander(*ship.graph);
+  Model model;
+  expander.expand(ship.derivation, ExpandTo::full, model);
+  for (auto _ : state) {
+    if (state.range(0) < 2) expander.expand(ship.derivation, ExpandTo::full, model);
+    if (state.range(0) > 0) benchmark::DoNotOptimize(target.score(ship.derivation, model, scratch.get()));
+    benchmark::DoNotOptimize(model.instances.data());
+  }
+  state.SetLabel(kCases[state.range(0)].what);
+  state.counters["parts"] = static_cast<double>(model.instances.size());
+}
+BENCHMARK(limits)->DenseRange(0, 5)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace espalier

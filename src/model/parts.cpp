@@ -1,7 +1,6 @@
 #include "model/parts.h"
 
 #include <bit>
-#include <cmath>
 #include <map>
 #include <utility>
 
@@ -13,18 +12,6 @@
 
 namespace espalier {
 namespace {
-
-constexpr float kFarthest = 1e18f;  // beyond, squares of lengths leave single precision
-
-bool usable(const Frame& frame) {
-  for (int c = 0; c < 3; ++c) {
-    for (int r = 0; r < 3; ++r) {
-      if (!(std::abs(frame.basis[c][r]) <= kFarthest)) return false;
-    }
-    if (!(std::abs(frame.origin[c]) <= kFarthest)) return false;
-  }
-  return true;
-}
 
 glm::dvec3 face_normal(const Mesh& mesh, const Triangle& t) {
   const glm::dvec3 a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]);
@@ -91,7 +78,7 @@ Parts collect_parts(const Model& model, const MeshTable& meshes, bool full) {
   Parts out;
   std::map<std::pair<std::uint16_t, std::uint32_t>, std::uint32_t> shape_of;
   for (const Instance& instance : model.instances) {
-    if (!(full ? in_full(instance) : in_parts(instance)) || !usable(instance.model_from_mesh)) continue;
+    if (!(full ? in_full(instance) : in_parts(instance)) || !can_be_shown(instance.model_from_mesh)) continue;
     const MeshRef& ref = meshes.ref(instance.mesh);
     const float ratio = ratio_of(instance, ref);
     const auto next = static_cast<std::uint32_t>(out.shapes.size());

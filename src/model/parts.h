@@ -1,6 +1,7 @@
 #pragma once
 // Parts: what of a model is drawn or written, as shared shapes with normals and one entry per instance.
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -26,6 +27,18 @@ struct Parts {
   std::vector<Shape> shapes;  // one per mesh and cone ratio, in order of first use
   std::vector<Part> parts;    // in the model's order
 };
+
+inline constexpr float kFarthestShown = 1e18f;  // m; beyond, squares of lengths leave single precision
+
+/// Finite and within kFarthestShown: what is not is left out of files, pictures and measures.
+inline bool can_be_shown(const Frame& frame) {
+  bool inside = true;
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) inside &= std::abs(frame.basis[c][r]) <= kFarthestShown;
+    inside &= std::abs(frame.origin[c]) <= kFarthestShown;
+  }
+  return inside;
+}
 
 /// The parts that `full` (else: parts) shows. Instances whose frame is not finite, or has no area to show, are left
 /// out.

@@ -10,6 +10,13 @@ using nlohmann::ordered_json;
 
 ordered_json percent_of(const Explanation& e) { return e.percent ? ordered_json(*e.percent) : ordered_json(); }
 
+// -infinity is no number of JSON; the reason says more.
+ordered_json score_of(const Explanation& e) { return e.rejected.empty() ? ordered_json(e.score) : ordered_json(); }
+
+ordered_json rejected_of(const Explanation& e) {
+  return e.rejected.empty() ? ordered_json() : ordered_json(e.rejected);
+}
+
 ordered_json target_json(const Explanation& target) {
   ordered_json terms = ordered_json::array();
   for (const Term& term : target.terms) {
@@ -20,9 +27,9 @@ ordered_json target_json(const Explanation& target) {
                      {"unit", term.unit},
                      {"value", term.value}});
   }
-  return {{"name", target.name},       {"weight", target.weight}, {"score", target.score},
-          {"optimum", target.optimum}, {"percent", percent_of(target)}, {"words", target.words},
-          {"terms", terms}};
+  return {{"name", target.name},       {"weight", target.weight},       {"score", score_of(target)},
+          {"optimum", target.optimum}, {"percent", percent_of(target)}, {"rejected", rejected_of(target)},
+          {"words", target.words},     {"terms", terms}};
 }
 
 }  // namespace
@@ -30,20 +37,24 @@ ordered_json target_json(const Explanation& target) {
 std::string explanation_json(const Explanation& e) {
   ordered_json targets = ordered_json::array();
   for (const Explanation& target : e.targets) targets.push_back(target_json(target));
-  const ordered_json document = {{"score", e.score},
+  const ordered_json document = {{"score", score_of(e)},
                                  {"optimum", e.optimum},
                                  {"percent", percent_of(e)},
+                                 {"rejected", rejected_of(e)},
                                  {"words", e.words},
                                  {"targets", targets}};
   return document.dump(1);
 }
 
 std::string explanation_text(const Explanation& e) {
-  std::string text = fmt::format("score {:.10g} of at most {:.10g}", e.score, e.optimum);
+  std::string text = e.rejected.empty() ? fmt::format("score {:.10g} of at most {:.10g}", e.score, e.optimum)
+                                        : "score rejected: " + e.rejected;
   if (e.percent) text += fmt::format(" ({:.1f} %)", *e.percent);
-  text += e.words.empty() ? "\n" : ": " + e.words + "\n";
+  const char* before_words = e.rejected.empty() ? ": " : "\n";
+  text += e.words.empty() ? "\n" : before_words + e.words + "\n";
   for (const Explanation& target : e.targets) {
-    text += fmt::format("{}: {:.10g} x {:g}\n", target.name, target.score, target.weight);
+    const std::string score = target.rejected.empty() ? fmt::format("{:.10g}", target.score + 0.0) : "rejected";
+    text += fmt::format("{}: {} x {:g}\n", target.name, score, target.weight);
     for (const Term& term : target.terms) {
       std::string count = fmt::format("{:.10g}", term.count);
       if (term.of > 0) count += fmt::format(" of {:.10g}", term.of);

@@ -7,8 +7,8 @@
 
 namespace espalier {
 
-/// {"score", "optimum", "percent", "words", "targets": [{"name", "weight", "score", "optimum", "percent", "words",
-/// "terms": [{"name", "weight", "count", "of", "unit", "value"}]}]}
+/// {"score", "optimum", "percent", "rejected", "words", "targets": [{"name", "weight", "score", "optimum", "percent",
+/// "rejected", "words", "terms": [{"name", "weight", "count", "of", "unit", "value"}]}]}; a rejected score is null.
 std::string explanation_json(const Explanation& explanation);
 
 /// Score, optimum, percent and words, then a line per term. Ends with a newline.

@@ -15,6 +15,13 @@ void ResultWriter::write_result(const std::string& path) const {
   const Explanation& e = result_.explanation;
   ordered_json diagnostics = ordered_json::object();
   for (const NamedCount& count : result_.diagnostics) diagnostics[count.name] = count.value;
+  ordered_json rejections = ordered_json::object();
+  for (const Rejections& rejected : result_.rejections) {
+    rejections[rejected.name] = {{"bound", rejected.bound}, {"models", rejected.count}};
+    if (rejected.count == 0) continue;
+    rejections[rejected.name]["lowest"] = rejected.lowest;
+    rejections[rejected.name]["highest"] = rejected.highest;
+  }
   ordered_json alternatives = ordered_json::array();
   for (std::size_t i = 1; i < size(); ++i) {
     alternatives.push_back({{"index", i},
@@ -42,6 +49,7 @@ void ResultWriter::write_result(const std::string& path) const {
       {"wall_seconds", result_.seconds},
       {"evaluations_per_second", per_second},
       {"engine_counts", diagnostics},
+      {"rejections", rejections},
       {"alternatives", alternatives},
       {"provenance", ordered_json::parse(to_json(provenance(0, ".")))},
   };

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "score/limit_target.h"
+#include "score/limit.h"
 #include "score/volume_target.h"
 #include "search/ga_settings.h"
 
@@ -32,6 +32,13 @@ struct SceneSearch {
   GaSettings ga;  // the preset with the scene's own values; `genes` comes from the limits
 
   bool operator==(const SceneSearch&) const = default;
+};
+
+struct SceneLimits {
+  std::string preset;  // of the ramp on genes (length_term in score/limit.h), resolved in `of`; empty: none
+  Limits of;           // without the hard ones on genes: those are search.ga.genes
+
+  bool operator==(const SceneLimits&) const = default;
 };
 
 /// A mesh to fill or to avoid: model_from_file = translate * rotate z * rotate y * rotate x * scale.
@@ -80,7 +87,7 @@ struct Scene {
   std::map<std::string, std::string> attributes;  // values as the language writes them
   SceneBudget budget;
   SceneSearch search;
-  double genes_from = 0, genes_to = 0, genes_weight = 0;  // soft ramp; hard limits are search.ga.genes
+  SceneLimits limits;
   SceneVolume volume;
   SceneOutput output;
 

@@ -1,5 +1,9 @@
 #include "run/scene_scorer.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
 #include "base/check.h"
 
 namespace espalier {
@@ -31,6 +35,30 @@ void SceneScorer::score(std::span<const Derivation* const> derivations, std::spa
     Worker& worker = workers_[static_cast<std::size_t>(w)];
     scores[i] = objective_.score(*derivations[i], expand(*derivations[i], worker), worker.scratch);
   });
+}
+
+std::vector<Rejections> SceneScorer::rejections() const {
+  std::vector<Rejections> all = objective_.rejections(workers_.front().scratch);
+  for (std::size_t w = 1; w < workers_.size(); ++w) {
+    const std::vector<Rejections> more = objective_.rejections(workers_[w].scratch);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i].count += more[i].count;
+      all[i].lowest = std::min(all[i].lowest, more[i].lowest);
+      all[i].highest = std::max(all[i].highest, more[i].highest);
+    }
+  }
+  return all;
+}
+
+std::string SceneScorer::describe_rejections() const {
+  std::string text;
+  for (const Rejections& r : rejections()) {
+    if (r.count == 0) continue;
+    text += fmt::format("{}limits.{} allows {}; {} had {:.6g} to {:.6g}", text.empty() ? "" : "; ", r.name, r.bound,
+                        r.count, r.lowest, r.highest);
+    if (!r.unit.empty()) text += " " + r.unit;
+  }
+  return text;
 }
 
 Explanation SceneScorer::explain(const Derivation& derivation) {

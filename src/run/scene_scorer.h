@@ -1,6 +1,7 @@
 #pragma once
 // SceneScorer: scores batches on an executor, one expander, model and scratch per worker.
 
+#include <string>
 #include <vector>
 
 #include "base/executor.h"
@@ -17,6 +18,9 @@ class SceneScorer final : public BatchScorer {
 
   void score(std::span<const Derivation* const> derivations, std::span<double> scores) override;
   double optimum() const override { return objective_.optimum(); }
+  std::string describe_rejections() const override;
+  /// What was rejected so far, by hard limit of the objective.
+  std::vector<Rejections> rejections() const;
   /// The score of one derivation taken apart.
   Explanation explain(const Derivation& derivation);
 

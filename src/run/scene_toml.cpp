@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "io/file.h"
 #include "run/scene_choices.h"
+#include "run/scene_limits.h"
 #include "run/toml_section.h"
 
 namespace espalier {
@@ -74,27 +75,6 @@ void read_search(const TomlValue& table, const std::string& file, SceneSearch& s
   take(ga.restart_after, s.whole("restart_after", 0, 1'000'000'000));
   take(ga.unique, s.boolean("unique"));
   s.finish();
-}
-
-void read_limits(const TomlValue& table, const std::string& file, Scene& scene) {
-  TomlSection limits(table, file, "limits");
-  if (const TomlValue* genes = limits.table("genes")) {
-    TomlSection s(*genes, file, "limits.genes");
-    GeneLimits& hard = scene.search.ga.genes;
-    take(hard.min, s.whole("min", 1, 1'000'000));
-    take(hard.max, s.whole("max", 1, 1'000'000));
-    take(scene.genes_from, s.number("from", 0, 1e9));
-    take(scene.genes_to, s.number("to", 0, 1e9));
-    take(scene.genes_weight, s.number("weight", 0, kMostWeight));
-    if (hard.min > hard.max) {
-      s.fail("max", fmt::format("must be at least {}.min = {}, got {}", "limits.genes", hard.min, hard.max));
-    }
-    if (scene.genes_weight > 0 && !(scene.genes_to > scene.genes_from)) {
-      s.fail("to", fmt::format("must be greater than limits.genes.from = {}, got {}", scene.genes_from, scene.genes_to));
-    }
-    s.finish();
-  }
-  limits.finish();
 }
 
 SceneMesh read_mesh(const TomlValue& table, const std::string& file, std::size_t index) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "run/scene_choices.h"
+#include "run/scene_limits.h"
 #include "run/scene_toml.h"
 
 namespace espalier {
@@ -81,9 +82,7 @@ std::string to_toml(const Scene& scene) {
   for (const auto& [name, value] : scene.attributes) w.line("{} = {}", quote_toml(name), quote_toml(value));
   write_budget(w, scene.budget);
   write_search(w, scene.search);
-  const GeneLimits& genes = scene.search.ga.genes;
-  w.line("\n[limits.genes]\nmin = {}\nmax = {}\nfrom = {}\nto = {}\nweight = {}", genes.min, genes.max,
-         format_toml(scene.genes_from), format_toml(scene.genes_to), format_toml(scene.genes_weight));
+  w.line("\n{}", limits_to_toml(scene));
   write_volume(w, scene.volume);
   w.line("\n[output]\nkeep = {}\ndistance = {}\npicture = [{}, {}]", scene.output.keep,
          format_toml(scene.output.distance), scene.output.picture[0], scene.output.picture[1]);

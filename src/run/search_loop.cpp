@@ -71,6 +71,7 @@ std::optional<SearchResult> run_search(const Setup& setup, const SearchControl& 
   result.seconds = watch.seconds();
   result.evaluations = engine.evaluations();
   result.diagnostics = engine.diagnostics();
+  result.rejections = scorer.rejections();
   result.best = engine.best();
   result.explanation = scorer.explain(result.best.derivation);
   if (setup.scene.output.keep > 0) result.alternatives = archive.apart_from(result.best.derivation);

@@ -28,6 +28,7 @@ struct SearchResult {
   Explanation explanation;               // of the best
   std::vector<StepReport> log;           // one per step
   std::vector<NamedCount> diagnostics;
+  std::vector<Rejections> rejections;    // by hard limit
   std::uint64_t steps = 0, evaluations = 0;
   double seconds = 0;
   std::string stopped_by;

@@ -8,6 +8,8 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "run/scene_limits.h"
+#include "score/limit_target.h"
 
 namespace espalier {
 namespace {
@@ -62,12 +64,9 @@ void build_objective(Setup& setup) {
   setup.volume = volume.get();
   for (const std::string& warning : volume->warnings()) setup.warnings.push_back(warning);
   setup.objective.add(std::move(volume));
-  const Scene& scene = setup.scene;
-  if (scene.genes_weight > 0) {
-    const GeneLimits& hard = scene.search.ga.genes;
-    const Limit limit = {hard.min, hard.max, scene.genes_from, scene.genes_to, scene.genes_weight};
-    setup.objective.add(std::make_unique<LimitTarget>(limit));
-  }
+  auto limits = std::make_unique<LimitTarget>(limits_of(setup.scene), setup.meshes, setup.scene.volume.view);
+  for (const std::string& warning : limits->warnings()) setup.warnings.push_back(warning);
+  setup.objective.add(std::move(limits));
 }
 
 }  // namespace

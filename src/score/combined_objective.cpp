@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -9,9 +10,20 @@
 #include "base/error.h"
 
 namespace espalier {
+namespace {
+
+constexpr double kRejected = -std::numeric_limits<double>::infinity();
+
+void append(std::string& text, const std::string& more) {
+  if (!text.empty() && !more.empty()) text += "; ";
+  text += more;
+}
+
+}  // namespace
 
 Objective::Scratch::Scratch(const Objective& objective) {
   for (const Entry& entry : objective.targets_) targets_.push_back(entry.target->make_scratch());
+  scores_.resize(targets_.size());
 }
 
 void Objective::add(std::unique_ptr<const Target> target, double weight) {
@@ -30,10 +42,16 @@ TargetView Objective::view() const {
 
 double Objective::score(const Derivation& derivation, const Model& model, Scratch& scratch) const {
   DCHECK(scratch.targets_.size() == targets_.size());
-  double sum = 0;
-  for (std::size_t i = 0; i < targets_.size(); ++i) {
-    sum += targets_[i].weight * targets_[i].target->score(derivation, model, scratch.targets_[i].get());
+  // A rejection spares the other targets, which may cost much more.
+  for (const bool may_reject : {true, false}) {
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+      if (targets_[i].target->may_reject() != may_reject) continue;
+      scratch.scores_[i] = targets_[i].target->score(derivation, model, scratch.targets_[i].get());
+      if (scratch.scores_[i] == kRejected) return kRejected;
+    }
   }
+  double sum = 0;
+  for (std::size_t i = 0; i < targets_.size(); ++i) sum += targets_[i].weight * scratch.scores_[i];
   return sum;
 }
 
@@ -50,17 +68,29 @@ Explanation Objective::explain(const Derivation& derivation, const Model& model,
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     Explanation one = targets_[i].target->explain(derivation, model, scratch.targets_[i].get());
     one.weight = targets_[i].weight;
-    all.score += one.weight * one.score;
+    if (one.score != kRejected) all.score += one.weight * one.score;
     for (Term term : one.terms) {
       term.weight *= one.weight;
       term.value *= one.weight;
       all.terms.push_back(std::move(term));
     }
-    if (!all.words.empty() && !one.words.empty()) all.words += "; ";
-    all.words += one.words;
+    append(all.words, one.words);
+    append(all.rejected, one.rejected);
     all.targets.push_back(std::move(one));
   }
-  all.percent = percent_of(all.score, all.optimum);
+  if (!all.rejected.empty()) {
+    all.score = kRejected;
+  } else {
+    all.percent = percent_of(all.score, all.optimum);
+  }
+  return all;
+}
+
+std::vector<Rejections> Objective::rejections(const Scratch& scratch) const {
+  std::vector<Rejections> all;
+  for (std::size_t i = 0; i < targets_.size(); ++i) {
+    for (Rejections& one : targets_[i].target->rejections(scratch.targets_[i].get())) all.push_back(std::move(one));
+  }
   return all;
 }
 

@@ -19,6 +19,7 @@ class Objective {
    private:
     friend class Objective;
     std::vector<std::unique_ptr<TargetScratch>> targets_;
+    std::vector<double> scores_;
   };
 
   /// Adds weight * target. `weight` must be finite and >= 0 (a target says itself what it avoids); throws Error.
@@ -31,9 +32,12 @@ class Objective {
   /// What the model must have been expanded to: the most that any target reads.
   TargetView view() const;
 
+  /// -infinity where any target rejects the model, whatever its weight.
   double score(const Derivation& derivation, const Model& model, Scratch& scratch) const;
   double optimum() const;
   Explanation explain(const Derivation& derivation, const Model& model, Scratch& scratch) const;
+  /// What score() rejected with this scratch, by hard bound; the same entries for every scratch.
+  std::vector<Rejections> rejections(const Scratch& scratch) const;
 
  private:
   struct Entry {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "derivation/derivation.h"
 
@@ -12,11 +13,15 @@ class BatchScorer {
  public:
   virtual ~BatchScorer() = default;
 
-  /// scores[i] = score of *derivations[i]; higher is better. Finite, and the same for any number of threads.
+  /// scores[i] = score of *derivations[i]; higher is better. Finite, or -infinity for what is not acceptable (beyond a
+  /// hard limit): engines never keep that, but redraw it. The same for any number of threads.
   virtual void score(std::span<const Derivation* const> derivations, std::span<double> scores) = 0;
 
   /// The best score that any model could have (it need not be reachable).
   virtual double optimum() const = 0;
+
+  /// For messages: what was not acceptable so far, and by which limits.
+  virtual std::string describe_rejections() const { return ""; }
 };
 
 }  // namespace espalier

@@ -33,6 +33,7 @@ struct Explanation {
   double score = 0;
   double optimum = 0;
   std::optional<double> percent;  // 100 * score / optimum; none unless optimum > 0
+  std::string rejected;  // why the model is not acceptable; then the score is -infinity, and terms tell the rest of it
   std::vector<Term> terms;
   std::string words;              // "81 % filled, 6 % spilled, 2 % overlap"
   std::vector<Explanation> targets;  // the objective's: one per target
@@ -44,6 +45,15 @@ class TargetScratch {
   virtual ~TargetScratch() = default;
 };
 
+/// What one hard bound has rejected so far.
+struct Rejections {
+  std::string name;   // of what was measured: "height"
+  std::string bound;  // "at most 6 m"
+  std::string unit;
+  std::uint64_t count = 0;
+  double lowest = 0, highest = 0;  // of the values rejected; only where count > 0
+};
+
 class Target {
  public:
   virtual ~Target() = default;
@@ -51,11 +61,15 @@ class Target {
   virtual TargetView view() const = 0;
   /// For one thread; may be kept for any number of models. Null where none is needed.
   virtual std::unique_ptr<TargetScratch> make_scratch() const { return nullptr; }
-  /// Higher is better; finite. `scratch` comes from make_scratch of this very target.
+  /// Whether it may find a model not acceptable. Such targets are asked first, and rejected models scored no further.
+  virtual bool may_reject() const { return false; }
+  /// Higher is better; finite, or -infinity: not acceptable. `scratch` comes from make_scratch of this very target.
   virtual double score(const Derivation& derivation, const Model& model, TargetScratch* scratch) const = 0;
   /// The best score that any model could have (it need not be reachable).
   virtual double optimum() const = 0;
   virtual Explanation explain(const Derivation& derivation, const Model& model, TargetScratch* scratch) const = 0;
+  /// What `score` rejected with this scratch: one entry per hard bound, always the same ones.
+  virtual std::vector<Rejections> rejections(const TargetScratch*) const { return {}; }
 };
 
 /// 100 * score / optimum where that says something.

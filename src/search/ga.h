@@ -2,8 +2,9 @@
 // The genetic algorithm (ShapeGenetics 2017, Algorithms 1 and 2, section 6; Haubenwallner et al. 2016, section 3).
 // A step makes a generation: the best `elitism` individuals unchanged, then pairs of children of selected parents.
 //
-// Cost per step: at most population - elitism evaluations (the first: population). An individual that did not change
-// keeps its score.
+// Cost per step: population - elitism evaluations (the first: population), and one more for each individual that the
+// scorer finds not acceptable: it is redrawn. An individual that did not change keeps its score. No individual of any
+// population is beyond the gene limits or not acceptable.
 
 #include <unordered_set>
 #include <vector>
@@ -22,13 +23,17 @@ class GaEngine final : public Engine {
   GaEngine(const GaEngine&) = delete;
   GaEngine& operator=(const GaEngine&) = delete;
 
-  /// The first throws Error when the graph yields no derivation within the gene limits.
+  /// The first throws Error when the graph yields no derivation within the gene limits, or none that is acceptable in
+  /// kMostStartRounds * population tries.
   void step() override;
   std::uint64_t steps() const override { return steps_; }
   std::uint64_t evaluations() const override { return evaluations_; }
   std::span<const Individual> population() const override { return population_; }
   const Individual& best() const override;
   std::vector<NamedCount> diagnostics() const override { return named(counts_); }
+
+  /// How often a population is begun before what is still missing of it is copied from what was acceptable.
+  static constexpr std::uint32_t kMostStartRounds = 50;
   void save(std::ostream& out) const override;
   void load(std::istream& in) override;
 
@@ -36,12 +41,21 @@ class GaEngine final : public Engine {
   /// With restarts, every kReunion-th population starts with the best of those since the last such.
   static constexpr std::uint32_t kReunion = 4;
 
+  /// A pair of places in the next generation, and the streams that its children are drawn with.
+  struct Brood {
+    RandomStream choosing, varying;
+    std::uint32_t attempts = 0;
+  };
+
   void make_initial_population();
+  void redraw_starts();
+  void copy_starts();
   bool restart_is_due() const;
   void restart();
-  Derivation make_individual(std::uint32_t index);
+  bool make_start(std::uint32_t index, Derivation& start);
   void make_next_generation();
-  void breed_pair(std::uint32_t pair, std::size_t first_child, std::size_t children);
+  void redraw_children();
+  void breed(Brood& brood, std::span<const std::size_t> places);
   void admit(Child& child, std::size_t place);
   void remember_population();
   bool find_known(Individual& individual) const;
@@ -64,6 +78,10 @@ class GaEngine final : public Engine {
   std::vector<Individual> population_;  // sorted, best first
   std::vector<Individual> newcomers_;   // the generation being made, in order of birth
   std::vector<char> scored_;            // per newcomer
+  std::vector<std::size_t> rejected_;   // places of newcomers that were just found not acceptable, ascending
+  std::vector<Brood> broods_;           // of the generation being made
+  std::vector<std::uint32_t> starts_;   // per place of a population being begun: attempts made
+  std::uint32_t start_rounds_ = 0;
   Child children_[2];
   std::vector<double> scores_;
   std::vector<const Derivation*> batch_;

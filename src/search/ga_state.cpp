@@ -14,7 +14,7 @@ namespace espalier {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x0a41'4750'5345ull;  // the bytes "ESPGA\n"
-constexpr std::uint64_t kStateVersion = 2;
+constexpr std::uint64_t kStateVersion = 3;
 
 // Everything that must be equal for a continued search to be the same search.
 std::string fingerprint(const SearchProblem& problem, const GaSettings& s) {

@@ -26,6 +26,9 @@ constexpr Entry kEntries[] = {
     {"restarts", &GaCounts::restarts},
     {"kept parents", &GaCounts::kept_parents},
     {"reused scores", &GaCounts::reused_scores},
+    {"rejected children", &GaCounts::rejected_children},
+    {"rejected starts", &GaCounts::rejected_starts},
+    {"copied starts", &GaCounts::copied_starts},
     {"short starts", &GaCounts::short_starts},
 };
 static_assert(sizeof(GaCounts) == sizeof(std::uint64_t) * std::size(kEntries));

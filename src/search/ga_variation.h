@@ -24,6 +24,9 @@ struct GaCounts {
   std::uint64_t restarts = 0;            // populations begun anew
   std::uint64_t kept_parents = 0;        // redrawn in vain: a parent stands in
   std::uint64_t reused_scores = 0;       // individuals whose score was known, elites aside
+  std::uint64_t rejected_children = 0;   // scored, found not acceptable and redrawn
+  std::uint64_t rejected_starts = 0;     // the same of initial individuals
+  std::uint64_t copied_starts = 0;       // redrawn in vain: a copy of an acceptable one stands in
   std::uint64_t short_starts = 0;        // initial individuals that could not grow to their length
 
   bool operator==(const GaCounts&) const = default;

@@ -1,6 +1,7 @@
 #include "search/selection.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/check.h"
 
@@ -17,6 +18,7 @@ std::string_view name_of(SelectionScheme scheme) {
 
 void Selection::prepare(std::span<const double> scores) {
   CHECK(!scores.empty());
+  for (const double score : scores) CHECK(std::isfinite(score));
   scores_.assign(scores.begin(), scores.end());
   if (scheme_ != SelectionScheme::roulette) return;
   const double worst = *std::min_element(scores_.begin(), scores_.end());

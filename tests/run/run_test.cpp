@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "io/mesh_import.h"
 #include "run/derivation_file.h"
+#include "run/explanation_json.h"
 #include "run/fixtures.h"
 #include "run/reproduce.h"
 #include "run/scene_toml.h"
@@ -111,6 +112,60 @@ TEST(Run, SameSeedSameBytesForAnyNumberOfThreads) {
   const auto one = comparable(folder / "one");
   EXPECT_EQ(one, comparable(folder / "two"));
   EXPECT_EQ(one, comparable(folder / "five"));
+}
+
+constexpr const char* kHardLimits =
+    "[limits.height]\nmax = 3.5\nfrom = 2\nto = 3.5\nweight = 100\n[limits.depth]\nmin = 2\nmax = 6\n"
+    "[limits.balance]\nmin = 0.1\nfrom = 0.5\nto = 0.1\nweight = 50\n[limits.volume]\nmax = 25\n";
+
+TEST(Run, HardLimitsHoldForAllThatIsKeptAndAreReproduced) {
+  const TemporaryFolder folder;
+  write_pile(folder, pile_scene("generations = 12") + kHardLimits);
+  ASSERT_TRUE(run_in(folder, "one", 1));
+  ASSERT_TRUE(run_in(folder, "four", 4));
+  EXPECT_EQ(comparable(folder / "one"), comparable(folder / "four"));
+  const auto result = nlohmann::json::parse(read_text(folder / "one/result.json"));
+  EXPECT_THAT(result["words"].get<std::string>(), HasSubstr("height "));
+  const auto& terms = result["targets"][1]["terms"];
+  ASSERT_EQ(terms.size(), 5u);  // genes too
+  EXPECT_EQ(terms[2]["name"], "height");
+  EXPECT_EQ(terms[2]["unit"], "m");
+  EXPECT_LE(terms[2]["count"], 3.5);
+  std::uint64_t most = 0, sum = 0;
+  for (const auto& [name, rejected] : result["rejections"].items()) {
+    most = std::max(most, rejected["models"].get<std::uint64_t>());
+    sum += rejected["models"].get<std::uint64_t>();
+  }
+  const auto& counts = result["engine_counts"];
+  const std::uint64_t all =
+      counts["rejected children"].get<std::uint64_t>() + counts["rejected starts"].get<std::uint64_t>();
+  EXPECT_GT(most, 0u);
+  EXPECT_LE(most, all);
+  EXPECT_GE(sum, all);  // a model may break several
+  EXPECT_GT(result["rejections"]["height"]["lowest"], 3.5);
+  EXPECT_EQ(result["rejections"]["genes"]["models"], 0);  // the engine keeps to those by itself
+  AssimpMeshSource source;
+  const auto executor = make_serial_executor();
+  EXPECT_TRUE(reproduce(folder / "one/result.json", "", source, *executor).identical());
+  for (const char* name : {"best", "alternatives/01", "alternatives/02"}) {
+    const std::string file = folder / "one/" + name + ".derivation.json";
+    if (!fs::exists(file)) continue;
+    EXPECT_EQ(score_derivation(load_scene(folder / "one/run.toml"), file, source).rejected, "") << name;
+  }
+}
+
+TEST(Run, LimitsThatNoModelMeetsAreAnErrorWithTheValuesMet) {
+  const TemporaryFolder folder;
+  write_pile(folder, pile_scene() + "[limits.height]\nmax = 0.25\n[limits.spread]\nmin = 100\n");
+  try {
+    run_in(folder, "out");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("none of 1200 models grown from grammar pile is acceptable: limits.height "
+                                        "allows at most 0.25 m; 1200 had "));
+    EXPECT_THAT(error.what(), HasSubstr(" m; limits.spread allows at least 100 m; 1200 had "));
+  }
+  EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
 TEST(Run, AnotherSeedIsAnotherModel) {
@@ -249,6 +304,25 @@ TEST(ScoreDerivation, AgreesWithTheRun) {
     }
     EXPECT_NEAR(sum, e.score, 1e-9 * std::abs(e.score));
   }
+}
+
+TEST(ScoreDerivation, SaysWhyAModelIsRejected) {
+  const TemporaryFolder folder;
+  write_pile(folder);
+  ASSERT_TRUE(run_in(folder, "out"));
+  AssimpMeshSource source;
+  const Scene scene = load_scene(folder / "scene.toml", {{"limits.height.max=0.5", "limits.parts.min=1000"}, {}});
+  const Explanation e = score_derivation(scene, folder / "out/best.derivation.json", source);
+  EXPECT_THAT(e.rejected, ::testing::MatchesRegex("[0-9]+ parts are below min 1000 parts, height .* m is above max "
+                                                  "0.5 m"));
+  EXPECT_THAT(explanation_text(e), ::testing::StartsWith("score rejected: "));
+  EXPECT_THAT(explanation_text(e), HasSubstr("\nlimits: rejected x 1\n"));
+  const auto json = nlohmann::json::parse(explanation_json(e));
+  EXPECT_TRUE(json["score"].is_null());
+  EXPECT_EQ(json["rejected"], e.rejected);
+  EXPECT_TRUE(json["targets"][0]["rejected"].is_null());
+  EXPECT_TRUE(json["targets"][0]["score"].is_number());
+  EXPECT_TRUE(json["targets"][1]["score"].is_null());
 }
 
 TEST(ScoreDerivation, RefusesWhatIsNoDerivationOfTheGrammar) {

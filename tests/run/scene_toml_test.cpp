@@ -57,6 +57,18 @@ max = 120
 from = 50
 to = 100
 weight = 0.1
+[limits.height]
+max = 6.5
+from = 4
+to = 6.5
+weight = 0.25
+[limits.balance]
+min = 0.1
+from = 0.5
+to = 0
+weight = 2
+[limits.triangles]
+max = 20000
 [volume]
 form = "smootherstep-separate"
 view = "parts"
@@ -133,7 +145,11 @@ TEST(Scene, EverySettingIsRead) {
   EXPECT_EQ(ga.retries, 5u);
   EXPECT_TRUE(ga.reuse_scores);
   EXPECT_EQ(ga.genes, (GeneLimits{5, 120}));
-  EXPECT_EQ(s.genes_weight, 0.1);
+  EXPECT_EQ(s.limits.of[Measure::genes], (Limit{.from = 50, .to = 100, .weight = 0.1}));
+  EXPECT_EQ(s.limits.of[Measure::height], (Limit{.max = 6.5, .from = 4, .to = 6.5, .weight = 0.25}));
+  EXPECT_EQ(s.limits.of[Measure::balance], (Limit{.min = 0.1, .from = 0.5, .to = 0, .weight = 2}));
+  EXPECT_EQ(s.limits.of[Measure::triangles], (Limit{.max = 20000}));
+  EXPECT_EQ(s.limits.of[Measure::depth], Limit{});
   EXPECT_EQ(s.volume.form, VolumeForm::smootherstep_separate);
   EXPECT_EQ(s.volume.overlap, OverlapCount::hits);
   EXPECT_EQ(s.volume.outside_weight, -2);
@@ -153,6 +169,15 @@ TEST(Scene, WrittenOutItReadsBackEqual) {
     EXPECT_EQ(again, scene) << to_toml(scene);
     EXPECT_EQ(to_toml(again), to_toml(scene));
   }
+}
+
+TEST(Scene, LengthPresetsAreDefaultsOfTheRampOnGenes) {
+  const auto scene = [](const std::string& limits) { return parse_scene(kLeast + limits, "s.toml", ""); };
+  const Scene early = scene("[limits]\npreset = \"length-2016\"\n");
+  EXPECT_EQ(early.limits.of[Measure::genes], (Limit{.from = 40, .to = 100, .weight = 0.2}));
+  const Scene late = scene("[limits]\npreset = \"length-2017\"\n[limits.genes]\nmin = 2\nmax = 60\nweight = 0.3\n");
+  EXPECT_EQ(late.limits.of[Measure::genes], (Limit{.from = 2, .to = 60, .weight = 0.3}));
+  for (const Scene& s : {early, late}) EXPECT_EQ(parse_scene(to_toml(s), "again", ""), s) << to_toml(s);
 }
 
 struct Bad {
@@ -184,9 +209,18 @@ const Bad kBad[] = {
     {"search", "grow = 0\ncut = 0\nalter = 0", "search.grow + cut + alter"},
     {"limits.genes", "min = 50\nmax = 20", "limits.genes.max must be at least limits.genes.min = 50, got 20"},
     {"limits.genes", "from = 5\nto = 5\nweight = 1",
-     "limits.genes.to must be greater than limits.genes.from = 5, got 5"},
+     "s.toml:9:6: limits.genes.to must differ from limits.genes.from = 5, got 5"},
+    {"limits.genes", "from = 5\nto = 8", "s.toml:8:8: limits.genes.from needs limits.genes.weight beside it"},
+    {"limits.height", "from = 5\nweight = 1", "s.toml:9:10: limits.height.weight needs limits.height.to beside it"},
+    {"limits.height", "min = 5\nmax = 4", "s.toml:9:7: limits.height.max must be at least limits.height.min = 5, got 4"},
+    {"limits.height", "max = -1", "limits.height.max must be a number from 0 to 1000000000, got -1"},
+    {"limits.depth", "max = 2.5", "limits.depth.max must be a whole number from 0 to 1000000, got 2.5"},
+    {"limits.balance", "min = 1.5", "limits.balance.min must be a number from 0 to 1, got 1.5"},
+    {"limits.heigth", "max = 1", "limits.heigth is no setting of a scene; did you mean limits.height?"},
+    {"limits", "height = 3", "limits.height must be a table, got 3"},
+    {"limits", "preset = \"length-2018\"", "limits.preset must be one of \"length-2016\", \"length-2017\", got"},
     {"limits.genes", "max = 10", "search.initial_length must overlap the gene limits 4 to 10, got 50 to 50"},
-    {"limits.depth", "max = 10", "limits.depth is no setting"},
+    {"limits.width", "max = 10", "limits.width is no setting"},
     {"volume.grid", "min = [0,0,0]\nmax = [1,1,1]", "volume.grid must have cells"},
     {"volume.grid", "min = [0,0,0]\nmax = [1,0,1]\ncells = [1,1,1]",
      "must be greater than volume.grid.min along y, got 0 and 0"},

@@ -91,7 +91,7 @@ TEST(Setup, BuildsTheObjectiveAndCopiesTheInputs) {
   write_pile(folder);
   const auto setup = set_up_in(folder);
   EXPECT_EQ(setup->graph().name, "pile");
-  EXPECT_EQ(setup->objective.size(), 2u);  // volume and the ramp on genes
+  EXPECT_EQ(setup->objective.size(), 2u);  // volume and limits
   EXPECT_THAT(names_of(setup->inputs), ElementsAre("inputs/pile.esp", "inputs/targets/tower.obj"));
   EXPECT_EQ(setup->scene.grammar, "inputs/pile.esp");
   EXPECT_EQ(setup->scene.volume.meshes[0].file, "inputs/targets/tower.obj");
@@ -99,10 +99,26 @@ TEST(Setup, BuildsTheObjectiveAndCopiesTheInputs) {
   EXPECT_GT(setup->objective.optimum(), 0);
 }
 
-TEST(Setup, WithoutARampThereIsOneTarget) {
+TEST(Setup, LimitsSeeWhatTheVolumeSees) {
   const TemporaryFolder folder;
   write_pile(folder);
-  EXPECT_EQ(set_up_in(folder, {"limits.genes.weight=0"})->objective.size(), 1u);
+  EXPECT_EQ(set_up_in(folder)->objective.target(1).view(), TargetView::genes);
+  const std::vector<std::string> parts = {"limits.height.max=3", "volume.view=parts"};
+  EXPECT_EQ(set_up_in(folder, parts)->objective.target(1).view(), TargetView::parts);
+  EXPECT_EQ(set_up_in(folder, {"limits.height.max=3"})->objective.target(1).view(), TargetView::full);
+}
+
+TEST(Setup, MeshFilesWithoutVolumeAreWarnedOfWhereVolumeIsLimited) {
+  const TemporaryFolder folder;
+  write_pile(folder);
+  std::string leaky = testing::box_obj(0, 0, 0, 1, 1, 1);
+  leaky.erase(leaky.rfind("f "));
+  write_text(folder / "leaky.obj", leaky);
+  write_text(folder / "pile.esp", "grammar g 1\nmesh leaky = \"leaky.obj\"\nstart G\n"
+                                  "rule G { k ~ uniform(1, 2)  size k  emit leaky }\n");
+  EXPECT_THAT(set_up_in(folder)->warnings, IsEmpty());
+  EXPECT_THAT(set_up_in(folder, {"limits.volume.max=3"})->warnings,
+              ElementsAre(HasSubstr("leaky.obj: is not closed, so it counts 0 m3 in limits.volume")));
 }
 
 TEST(Setup, TheSameTargetTwiceIsStoredOnceAndNamesakesApart) {

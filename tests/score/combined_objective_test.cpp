@@ -26,30 +26,17 @@ Derivation genes(std::size_t n) {
   return derivation;
 }
 
-TEST(LimitTarget, RampsUpAndSubtracts) {
-  const LimitTarget limit({.min = 4, .max = 300, .from = 40, .to = 100, .weight = 0.2});
-  const Model model;
-  EXPECT_EQ(limit.score(genes(40), model, nullptr), 0);
-  EXPECT_EQ(limit.score(genes(70), model, nullptr), -0.1);
-  EXPECT_EQ(limit.score(genes(5000), model, nullptr), -0.2);
-  EXPECT_EQ(limit.explain(genes(70), model, nullptr).words, "70 genes");
-  EXPECT_EQ(limit.explain(genes(70), model, nullptr).terms[0].value, -0.1);
-  EXPECT_TRUE(limit.limit().accepts(300));
-  EXPECT_FALSE(limit.limit().accepts(301));
-  EXPECT_FALSE(limit.limit().accepts(3));
-}
-
-TEST(LimitTarget, RefusesNonsense) {
-  EXPECT_THROW(LimitTarget({.min = 5, .max = 4}), Error);
-  EXPECT_THROW(LimitTarget({.from = 5, .to = 4}), Error);
-  EXPECT_THROW(LimitTarget({.weight = -1}), Error);
+std::unique_ptr<LimitTarget> gene_limit(const Limit& limit) {
+  Limits limits;
+  limits[Measure::genes] = limit;
+  return std::make_unique<LimitTarget>(limits, test_meshes(), VolumeView::parts);
 }
 
 TEST(Objective, AddsItsTargetsUp) {
   Objective objective;
   EXPECT_EQ(objective.view(), TargetView::genes);
   objective.add(std::make_unique<VolumeTarget>(wanted_box(), test_meshes()), 0.5);
-  objective.add(std::make_unique<LimitTarget>(Limit{.from = 0, .to = 20, .weight = 10}));
+  objective.add(gene_limit({.from = 0, .to = 20, .weight = 10}));
   EXPECT_EQ(objective.view(), TargetView::parts);
   EXPECT_EQ(objective.optimum(), 32);
   Objective::Scratch scratch(objective);
@@ -60,7 +47,7 @@ TEST(Objective, AddsItsTargetsUp) {
   const Explanation e = objective.explain(genes(10), model, scratch);
   EXPECT_EQ(e.score, 19);
   EXPECT_EQ(e.percent, 100.0 * 19 / 32);
-  EXPECT_EQ(e.words, "75 % filled, 0 % spilled, 0 % overlap; 10 genes");
+  EXPECT_EQ(e.words, "75 % filled, 0 % spilled, 0 % overlap; 10 genes: 10 genes over 0 genes, costs 5");
   EXPECT_EQ(e.targets.size(), 2u);
   double sum = 0;
   for (const Term& term : e.terms) sum += term.value;
@@ -69,7 +56,7 @@ TEST(Objective, AddsItsTargetsUp) {
 
 TEST(Objective, RefusesNegativeWeights) {
   Objective objective;
-  EXPECT_THROW(objective.add(std::make_unique<LimitTarget>(Limit{}), -1), Error);
+  EXPECT_THROW(objective.add(gene_limit({}), -1), Error);
 }
 
 }  // namespace

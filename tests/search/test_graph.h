@@ -2,7 +2,11 @@
 // A small grammar made by hand, so that the search is tested without the language: a Root with two places for a Twig; a
 // Twig has a draw, two places for a Twig and one for a Bud; a Bud has a draw.
 
+#include <algorithm>
+#include <functional>
+#include <limits>
 #include <memory>
+#include <string>
 
 #include "derivation/derivation.h"
 #include "score/objective.h"
@@ -57,6 +61,11 @@ inline std::shared_ptr<const GeneratorGraph> stunted_graph() {
   return graph;
 }
 
+inline std::size_t buds_in(const Derivation& derivation) {
+  return static_cast<std::size_t>(std::count_if(derivation.genes.begin(), derivation.genes.end(),
+                                                [](const GeneRecord& gene) { return gene.edge == kTwigBud; }));
+}
+
 /// Score: the number of Buds, plus a bonus below 1 for small draws. Remembers what it was asked.
 class BudScorer final : public BatchScorer {
  public:
@@ -78,6 +87,27 @@ class BudScorer final : public BatchScorer {
 
   int batches = 0;
   std::vector<std::uint64_t> asked;
+};
+
+/// The same, but what `accepts` says no to is not acceptable. Counts those.
+class ChoosyScorer final : public BatchScorer {
+ public:
+  using Rule = std::function<bool(const Derivation&)>;
+  explicit ChoosyScorer(Rule rule) : accepts(std::move(rule)) {}
+
+  void score(std::span<const Derivation* const> derivations, std::span<double> scores) override {
+    for (std::size_t i = 0; i < derivations.size(); ++i) {
+      const bool good = accepts(*derivations[i]);
+      scores[i] = good ? BudScorer::score_of(*derivations[i]) : -std::numeric_limits<double>::infinity();
+      ++asked;
+      rejected += !good;
+    }
+  }
+  double optimum() const override { return 100; }
+  std::string describe_rejections() const override { return "it is choosy"; }
+
+  Rule accepts;
+  std::uint64_t asked = 0, rejected = 0;
 };
 
 }  // namespace espalier::testing
