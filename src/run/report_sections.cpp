@@ -23,6 +23,7 @@ std::string percent(double share) { return fmt::format("{:.1f}&thinsp;%", 100 * 
 /// A bar from the middle: to the right what adds, to the left what takes away.
 std::string bar(double value, double largest) {
   const double share = largest > 0 ? std::fabs(value) / largest : 0;
+  if (value == 0) return "";
   return fmt::format("<span class=\"bar\" aria-hidden=\"true\"><i class=\"{}\" style=\"width:{:.2f}%\"></i></span>",
                      value < 0 ? "takes" : "adds", 50 * std::min(share, 1.0));
 }
@@ -120,7 +121,7 @@ std::string alternatives_html(const ReportInput& input) {
 std::string provenance_html(const ReportInput& input) {
   const Provenance& p = input.provenance;
   std::string html = "<dl>\n";
-  html += hash_row("Espalier", p.version);
+  html += hash_row("version", p.version);
   html += hash_row("engine", p.engine);
   html += hash_row("seed", fmt::format("{}", p.seed));
   html += hash_row("steps", fmt::format("{}", p.steps));
