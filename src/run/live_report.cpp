@@ -18,9 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLargestShare = 0.1;  // of one core
+constexpr double kLargestShare = 0.1;  // of the search's computing
 constexpr double kFirst_s = 1;         // a first picture comes soon
-constexpr std::uint32_t kMostAcross = 640;
+constexpr std::uint32_t kMostAcross = 560;
+constexpr int kSamples = 8;
 
 std::array<std::uint32_t, 2> small_size(std::array<std::uint32_t, 2> size) {
   const std::uint32_t longer = std::max(size[0], size[1]);
@@ -47,7 +48,7 @@ class LiveReport::Painter {
         executor_(make_serial_executor()),
         scorer_(setup.graph(), setup.objective, *executor_),
         size_(small_size(setup.scene.output.picture)),
-        files_(setup.graph(), setup.meshes, setup.targets, size_, *executor_) {}
+        expander_(setup.graph()) {}
 
   void paint(const Snapshot& snapshot) {
     if (!targets_) targets_ = target_pictures(setup_, size_, *executor_);
@@ -57,11 +58,15 @@ class LiveReport::Painter {
     result_.evaluations = result_.log.back().evaluations;
     result_.seconds = result_.log.back().seconds;
     result_.explanation = scorer_.explain(result_.best.derivation);
-    const Picture picture = files_.picture(result_.best.derivation, size_);
+    expander_.expand(result_.best.derivation, ExpandTo::full, model_);
+    RenderSettings look;
+    look.width = size_[0], look.height = size_[1], look.samples = kSamples;
+    const std::vector<Material>& materials = setup_.graph().materials;
+    const Picture picture = render(model_, setup_.meshes, materials, setup_.targets, look, *executor_);
     const Provenance from = provenance();
     const std::string png = encode_png(picture.width, picture.height, picture.rgb, "espalier", to_json(from));
     ReportInput input{setup_, result_, from, {"Best so far", "", png}, *targets_, {}, {}, note_};
-    input.model = make_report_model(files_.model(), setup_.meshes, setup_.graph().materials, setup_.targets);
+    input.model = make_report_model(model_, setup_.meshes, materials, setup_.targets);
     const std::string page = report_page(input);
     write_file((fs::path(folder_) / "best.png").string(), png);
     write_file((fs::path(folder_) / "report.html").string(), page);
@@ -90,14 +95,17 @@ class LiveReport::Painter {
   std::unique_ptr<Executor> executor_;
   SceneScorer scorer_;
   std::array<std::uint32_t, 2> size_;
-  ModelFiles files_;
+  Expander expander_;
+  Model model_;
   std::optional<std::vector<ReportPicture>> targets_;
   SearchResult result_;
 };
 
 LiveReport::LiveReport(const Setup& setup, std::string settings, std::string folder, const std::string& final_folder,
-                       double refresh_seconds)
-    : refresh_seconds_(refresh_seconds), due_s_(std::min(kFirst_s, refresh_seconds)) {
+                       double refresh_seconds, int workers)
+    : refresh_seconds_(refresh_seconds),
+      cores_(std::clamp<int>(workers, 1, std::max(1, static_cast<int>(std::thread::hardware_concurrency())))),
+      due_s_(std::min(kFirst_s, refresh_seconds)) {
   LiveNote note;
   note.refresh_seconds = refresh_seconds;
   note.final_folder = "../" + url_component(fs::path(final_folder).filename().string()) + "/";
@@ -148,7 +156,7 @@ void LiveReport::work() {
     problem_ = problem;
     idle_ = true;
     // The next one is due `refresh_seconds_` after the last, unless that was dear.
-    due_s_ = std::max(due_s_, due_s_ - refresh_seconds_ + cost / kLargestShare);
+    due_s_ = std::max(due_s_, due_s_ - refresh_seconds_ + cost / (kLargestShare * cores_));
   }
 }
 

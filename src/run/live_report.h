@@ -1,7 +1,7 @@
 #pragma once
 // LiveReport: best.png and report.html of a search that goes on, refreshed in its folder by a thread of their own. The
-// search only hands over copies; it never waits. A refresh that took c seconds of computing is followed by none for at
-// least 10 c, so that it takes a tenth of one core at most.
+// search only hands over copies; it never waits. A refresh that took c seconds of computing is followed by none until
+// the search has computed 10 c on all its cores: it takes a tenth at most.
 
 #include <condition_variable>
 #include <memory>
@@ -19,9 +19,9 @@ namespace espalier {
 class LiveReport final : public SearchWatcher {
  public:
   /// Files are written into `folder`, which will be called `final_folder` in the end: both paths, side by side.
-  /// `setup` must outlive it; `settings` is the text of run.toml; `refresh_seconds` > 0.
+  /// `setup` must outlive it; `settings` is the text of run.toml; `refresh_seconds` > 0; `workers`: threads of the search.
   LiveReport(const Setup& setup, std::string settings, std::string folder, const std::string& final_folder,
-             double refresh_seconds);
+             double refresh_seconds, int workers);
   /// Waits for the refresh that is under way.
   ~LiveReport() override;
 
@@ -39,6 +39,7 @@ class LiveReport final : public SearchWatcher {
   void work();
 
   const double refresh_seconds_;
+  const int cores_;  // that the search computes on
   std::unique_ptr<Painter> painter_;
   std::vector<StepReport> pending_;  // the search's own
 

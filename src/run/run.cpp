@@ -88,7 +88,8 @@ bool run_scene(const Scene& scene, const RunOptions& options, MeshSource& source
   control.observer = &observer;
   std::optional<LiveReport> live;
   if (scene.refresh_seconds > 0) {
-    live.emplace(*setup, settings_text(*setup), folder.staging(), folder.path(), scene.refresh_seconds);
+    live.emplace(*setup, settings_text(*setup), folder.staging(), folder.path(), scene.refresh_seconds,
+                 executor->workers());
     control.watcher = &*live;
   }
   const std::optional<SearchResult> result = run_search(*setup, control, *executor);

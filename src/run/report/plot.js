@@ -44,7 +44,7 @@
     svg.replaceChildren();
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     const xs = page.data[by], [low, high] = range(), last = xs[xs.length - 1] || 1;
-    const edge = {left: 52, right: 14, top: 20, bottom: 40};
+    const edge = {left: 52, right: 14, top: 40, bottom: 40};
     const x = (value) => edge.left + value / last * (width - edge.left - edge.right);
     const y = (value) => height - edge.bottom - (value - low) / (high - low) * (height - edge.top - edge.bottom);
     const yTicks = ticks(low, high, 6), xTicks = ticks(0, last, width / 95);
@@ -61,7 +61,7 @@
     element("text", {x: (edge.left + width - edge.right) / 2, y: height - 4, "text-anchor": "middle"}, by);
     if (optimum > 0) {
       element("line", {class: "optimum", x1: edge.left, x2: width - edge.right, y1: y(optimum), y2: y(optimum)});
-      element("text", {x: width - edge.right, y: y(optimum) - 6, "text-anchor": "end"}, "most that any model could have");
+      element("text", {x: width - edge.right, y: y(optimum) - 6, "text-anchor": "end"}, "most that any model could score");
     }
     const floor = height - edge.bottom;
     for (const [name, values] of [["mean", mean], ["best", best]]) {
@@ -75,7 +75,7 @@
 
   const drawLegend = (edge) => {
     let at = edge.left + 2;
-    for (const [name, text] of [["best", "best so far"], ["mean", "mean of the population"]]) {
+    for (const [name, text] of [["best", "best so far"], ["mean", "population's mean"]]) {
       element("polyline", {class: name, points: `${at},9 ${at + 18},9`});
       const words = element("text", {class: name, x: at + 23, y: 13}, text);
       at += 40 + words.getComputedTextLength();
