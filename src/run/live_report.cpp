@@ -19,19 +19,23 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLargestShare = 0.1;  // of the search's computing
+constexpr double kHindrance = 2;       // a second of painting costs the search up to two: its threads wait for each other
 constexpr double kFirst_s = 1;         // a first picture comes soon
-constexpr std::uint32_t kMostAcross = 560;
-constexpr int kSamples = 8;
+constexpr std::uint32_t kMostAcross = 480;
+constexpr int kSamples = 4;
 
-std::array<std::uint32_t, 2> small_size(std::array<std::uint32_t, 2> size) {
-  const std::uint32_t longer = std::max(size[0], size[1]);
-  if (longer <= kMostAcross) return size;
-  return {std::max(1u, size[0] * kMostAcross / longer), std::max(1u, size[1] * kMostAcross / longer)};
+RenderSettings small_look(std::array<std::uint32_t, 2> size) {
+  const std::uint32_t longer = std::max({size[0], size[1], kMostAcross});
+  RenderSettings look;
+  look.width = std::max(1u, size[0] * kMostAcross / longer), look.height = std::max(1u, size[1] * kMostAcross / longer);
+  look.samples = kSamples;
+  return look;
 }
 
-double thread_seconds() {
+/// Computing time so far: CLOCK_THREAD_CPUTIME_ID or CLOCK_PROCESS_CPUTIME_ID.
+double computed_s(clockid_t clock) {
   timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  clock_gettime(clock, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
@@ -47,11 +51,11 @@ class LiveReport::Painter {
         note_(std::move(note)),
         executor_(make_serial_executor()),
         scorer_(setup.graph(), setup.objective, *executor_),
-        size_(small_size(setup.scene.output.picture)),
+        look_(small_look(setup.scene.output.picture)),
         expander_(setup.graph()) {}
 
   void paint(const Snapshot& snapshot) {
-    if (!targets_) targets_ = target_pictures(setup_, size_, *executor_);
+    if (!targets_) targets_ = target_pictures(setup_, look_, *executor_);
     result_.best = snapshot.best;
     result_.log.insert(result_.log.end(), snapshot.steps.begin(), snapshot.steps.end());
     result_.steps = result_.log.back().step;
@@ -59,10 +63,8 @@ class LiveReport::Painter {
     result_.seconds = result_.log.back().seconds;
     result_.explanation = scorer_.explain(result_.best.derivation);
     expander_.expand(result_.best.derivation, ExpandTo::full, model_);
-    RenderSettings look;
-    look.width = size_[0], look.height = size_[1], look.samples = kSamples;
     const std::vector<Material>& materials = setup_.graph().materials;
-    const Picture picture = render(model_, setup_.meshes, materials, setup_.targets, look, *executor_);
+    const Picture picture = render(model_, setup_.meshes, materials, setup_.targets, look_, *executor_);
     const Provenance from = provenance();
     const std::string png = encode_png(picture.width, picture.height, picture.rgb, "espalier", to_json(from));
     ReportInput input{setup_, result_, from, {"Best so far", "", png}, *targets_, {}, {}, note_};
@@ -94,7 +96,7 @@ class LiveReport::Painter {
   LiveNote note_;
   std::unique_ptr<Executor> executor_;
   SceneScorer scorer_;
-  std::array<std::uint32_t, 2> size_;
+  RenderSettings look_;
   Expander expander_;
   Model model_;
   std::optional<std::vector<ReportPicture>> targets_;
@@ -102,9 +104,9 @@ class LiveReport::Painter {
 };
 
 LiveReport::LiveReport(const Setup& setup, std::string settings, std::string folder, const std::string& final_folder,
-                       double refresh_seconds, int workers)
+                       double refresh_seconds)
     : refresh_seconds_(refresh_seconds),
-      cores_(std::clamp<int>(workers, 1, std::max(1, static_cast<int>(std::thread::hardware_concurrency())))),
+      before_s_(computed_s(CLOCK_PROCESS_CPUTIME_ID)),
       due_s_(std::min(kFirst_s, refresh_seconds)) {
   LiveNote note;
   note.refresh_seconds = refresh_seconds;
@@ -118,11 +120,18 @@ LiveReport::~LiveReport() { end(); }
 void LiveReport::stepped(const StepReport& report, const Individual& best) {
   pending_.push_back(report);
   const std::lock_guard lock(mutex_);
-  if (!idle_ || snapshot_ || report.seconds < due_s_ || !problem_.empty()) return;
+  if (!idle_ || snapshot_ || report.seconds < due_s_ || !problem_.empty() || !affordable()) return;
   snapshot_ = Snapshot{best, std::move(pending_)};
   pending_.clear();
   due_s_ = report.seconds + refresh_seconds_;
   wake_.notify_one();
+}
+
+/// Whether one more as dear as the last would still be within the share; the first is on credit.
+bool LiveReport::affordable() const {
+  if (painted_s_ == 0) return true;
+  const double searched_s = computed_s(CLOCK_PROCESS_CPUTIME_ID) - before_s_ - painted_s_;
+  return kHindrance * (painted_s_ + last_s_) <= kLargestShare * searched_s;
 }
 
 std::string LiveReport::end() {
@@ -144,19 +153,18 @@ void LiveReport::work() {
     snapshot_.reset();
     idle_ = false;
     lock.unlock();
-    const double begin = thread_seconds();
+    const double begin = computed_s(CLOCK_THREAD_CPUTIME_ID);
     std::string problem;
     try {
       painter_->paint(snapshot);
     } catch (const std::exception& error) {  // the search goes on without it, and is told in the end
       problem = error.what();
     }
-    const double cost = thread_seconds() - begin;
+    const double cost = computed_s(CLOCK_THREAD_CPUTIME_ID) - begin;
     lock.lock();
     problem_ = problem;
     idle_ = true;
-    // The next one is due `refresh_seconds_` after the last, unless that was dear.
-    due_s_ = std::max(due_s_, due_s_ - refresh_seconds_ + cost / (kLargestShare * cores_));
+    last_s_ = cost, painted_s_ += cost;
   }
 }
 

@@ -65,8 +65,8 @@ std::string headline(const SearchResult& result) {
 
 std::string status(const ReportInput& input) {
   if (!input.live) return "";
-  return fmt::format("<p class=\"status live\" id=\"status\" role=\"status\">The search goes on; this page loads "
-                     "itself anew every {:g} seconds.</p>", input.live->refresh_seconds);
+  return fmt::format("<span class=\"status live\" id=\"status\" role=\"status\">The search goes on; this page loads "
+                     "itself anew every {:g} seconds.</span>", input.live->refresh_seconds);
 }
 
 std::string ended_by(const std::string& reason) {

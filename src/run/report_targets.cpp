@@ -17,10 +17,8 @@ std::string describe(const SceneMesh& mesh) {
   return fmt::format("{} ({}, weight {:g})", file, wish, mesh.fill);
 }
 
-ReportPicture volume_picture(const Setup& setup, std::array<std::uint32_t, 2> size, Executor& executor) {
-  RenderSettings settings;
-  settings.width = size[0], settings.height = size[1];
-  const Picture drawn = render(Model(), setup.meshes, setup.graph().materials, setup.targets, settings, executor);
+ReportPicture volume_picture(const Setup& setup, const RenderSettings& look, Executor& executor) {
+  const Picture drawn = render(Model(), setup.meshes, setup.graph().materials, setup.targets, look, executor);
   ReportPicture picture;
   picture.title = setup.targets.size() == 1 ? "Target volume" : "Target volumes";
   for (const SceneMesh& mesh : setup.scene.volume.meshes) {
@@ -32,9 +30,9 @@ ReportPicture volume_picture(const Setup& setup, std::array<std::uint32_t, 2> si
 
 }  // namespace
 
-std::vector<ReportPicture> target_pictures(const Setup& setup, std::array<std::uint32_t, 2> size, Executor& executor) {
+std::vector<ReportPicture> target_pictures(const Setup& setup, const RenderSettings& look, Executor& executor) {
   std::vector<ReportPicture> pictures;
-  if (!setup.targets.empty()) pictures.push_back(volume_picture(setup, size, executor));
+  if (!setup.targets.empty()) pictures.push_back(volume_picture(setup, look, executor));
   return pictures;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/executor.h"
+#include "render/render.h"
 #include "run/setup.h"
 
 namespace espalier {
@@ -16,7 +17,7 @@ struct ReportPicture {
 };
 
 /// One picture or more per kind of target, in the order in which they are to be read; each kind adds its own here.
-/// `size` is what a picture may have at most: width, height.
-std::vector<ReportPicture> target_pictures(const Setup& setup, std::array<std::uint32_t, 2> size, Executor& executor);
+/// `look` says how large a picture may be, and how good.
+std::vector<ReportPicture> target_pictures(const Setup& setup, const RenderSettings& look, Executor& executor);
 
 }  // namespace espalier

@@ -21,10 +21,12 @@ std::string small_png(const Picture& picture, std::uint32_t most, const char* ti
   return encode_png(small.width, small.height, small.rgb, "Title", title);
 }
 
-/// The size of pictures, halved until they are at most kMostAcross across.
-std::array<std::uint32_t, 2> page_size(std::array<std::uint32_t, 2> size) {
+/// Of the size of pictures, halved until they are at most kMostAcross across.
+RenderSettings page_look(std::array<std::uint32_t, 2> size) {
   while (std::max(size[0], size[1]) > kMostAcross) size = {std::max(1u, size[0] / 2), std::max(1u, size[1] / 2)};
-  return size;
+  RenderSettings look;
+  look.width = size[0], look.height = size[1];
+  return look;
 }
 
 }  // namespace
@@ -36,7 +38,7 @@ void ResultWriter::write_report(const std::string& path) {
   input.best = {"Best", fmt::format("{} gene{}: {}", genes, genes == 1 ? "" : "s",
                                     genes_in_words(setup_.graph(), result_.best.derivation)),
                 small_png(best_picture(), kMostAcross, "espalier: best")};
-  input.targets = target_pictures(setup_, page_size(setup_.scene.output.picture), executor_);
+  input.targets = target_pictures(setup_, page_look(setup_.scene.output.picture), executor_);
   for (std::size_t i = 1; i < size(); ++i) {
     input.alternatives.push_back(small_png(small_picture(i), across, "espalier: alternative"));
   }

@@ -88,8 +88,7 @@ bool run_scene(const Scene& scene, const RunOptions& options, MeshSource& source
   control.observer = &observer;
   std::optional<LiveReport> live;
   if (scene.refresh_seconds > 0) {
-    live.emplace(*setup, settings_text(*setup), folder.staging(), folder.path(), scene.refresh_seconds,
-                 executor->workers());
+    live.emplace(*setup, settings_text(*setup), folder.staging(), folder.path(), scene.refresh_seconds);
     control.watcher = &*live;
   }
   const std::optional<SearchResult> result = run_search(*setup, control, *executor);
