@@ -40,6 +40,11 @@ void ModelFiles::write(const Derivation& derivation, const std::string& path, co
   export_model(path, model_, meshes_, Surfaces(graph_, model_, textures_), provenance);
 }
 
+const Model& ModelFiles::model_of(const Derivation& derivation) {
+  expander_.expand(derivation, ExpandTo::full, model_);
+  return model_;
+}
+
 Picture ModelFiles::picture(const Derivation& derivation, std::array<std::uint32_t, 2> size) {
   expander_.expand(derivation, ExpandTo::full, model_);
   RenderSettings settings;

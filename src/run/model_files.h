@@ -26,6 +26,8 @@ class ModelFiles {
   /// By the ending of `path`: .glb .obj .ply .stl with details, .png, .json (the derivation). Throws Error.
   void write(const Derivation& derivation, const std::string& path, const Provenance& provenance);
   Picture picture(const Derivation& derivation, std::array<std::uint32_t, 2> size);
+  /// With details; stays until the next call.
+  const Model& model_of(const Derivation& derivation);
   /// Of the derivation last written or drawn.
   const Model& model() const { return model_; }
 

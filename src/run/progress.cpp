@@ -40,6 +40,9 @@ class Lines : public RunObserver {
   void started(const RunStart& start) override {
     start_ = start;
     print(headline(start));
+    if (!start.live.empty()) {
+      print(fmt::format("watch it in {} (refreshed every {:g} s)", start.live, start.refresh_seconds));
+    }
   }
   void step(const StepReport& report) override {
     if (shown_ && report.seconds - last_s_ < interval_s_) return;

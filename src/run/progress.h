@@ -20,6 +20,8 @@ struct RunStart {
   SceneBudget budget;
   int threads = 1;
   std::uint64_t voxels = 0;
+  std::string live;  // path of the report that is refreshed while the search goes on; empty: none
+  double refresh_seconds = 0;
 };
 
 /// After each step.

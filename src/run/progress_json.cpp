@@ -27,7 +27,8 @@ class JsonLines final : public RunObserver {
            {"voxels", start.voxels},
            {"optimum", start.optimum},
            {"budget", budget},
-           {"out", start.out}});
+           {"out", start.out},
+           {"live", start.live.empty() ? ordered_json() : ordered_json(start.live)}});
   }
   void step(const StepReport& report) override {
     print({{"event", "step"},

@@ -28,15 +28,19 @@ std::string caption(const Individual& individual, std::size_t index, double opti
 
 }  // namespace
 
-ResultWriter::ResultWriter(const Setup& setup, const SearchResult& result, Executor& executor)
-    : setup_(setup),
-      result_(result),
-      files_(setup.graph(), setup.meshes, setup.textures, setup.targets, setup.scene.output.picture, executor) {
-  settings_ = fmt::format(
+std::string settings_text(const Setup& setup) {
+  return fmt::format(
       "# The settings of a run of Espalier {}, all written out. `espalier run` searches with them anew;\n"
       "# `espalier reproduce` on a file of this folder replays its steps and compares.\n{}",
       kVersion, to_toml(setup.scene));
 }
+
+ResultWriter::ResultWriter(const Setup& setup, const SearchResult& result, Executor& executor)
+    : setup_(setup),
+      result_(result),
+      executor_(executor),
+      settings_(settings_text(setup)),
+      files_(setup.graph(), setup.meshes, setup.textures, setup.targets, setup.scene.output.picture, executor) {}
 
 const Individual& ResultWriter::individual(std::size_t index) const {
   CHECK(index < size());
@@ -67,6 +71,7 @@ std::vector<std::string> ResultWriter::names() const {
     for (std::size_t i = 1; i < size(); ++i) names.push_back(alternative_name(i, ending));
   }
   names.push_back("alternatives.png");
+  names.push_back("report.html");
   return names;
 }
 
@@ -76,6 +81,7 @@ void ResultWriter::write(const std::string& name, const std::string& path) {
   if (name == "result.json") return write_result(path);
   if (name == "convergence.csv") return write_convergence(path);
   if (name == "alternatives.png") return write_sheet(path);
+  if (name == "report.html") return write_report(path);
   if (name.starts_with("best.")) return write_individual(0, path, provenance(0, "."));
   CHECK(name.starts_with("alternatives/"));
   std::error_code ignored;  // a folder that cannot be made shows when the file is written
@@ -86,7 +92,16 @@ void ResultWriter::write(const std::string& name, const std::string& path) {
 
 void ResultWriter::write_individual(std::size_t index, const std::string& path, const Provenance& provenance) {
   if (index > 0 && path.ends_with(".png")) return write_small_picture(index, path, provenance);
+  if (path.ends_with(".png")) {
+    const Picture& picture = best_picture();
+    return write_png(path, picture.width, picture.height, picture.rgb, provenance);
+  }
   files_.write(individual(index).derivation, path, provenance);
+}
+
+const Picture& ResultWriter::best_picture() {
+  if (best_picture_.rgb.empty()) best_picture_ = files_.picture(result_.best.derivation, setup_.scene.output.picture);
+  return best_picture_;
 }
 
 const Picture& ResultWriter::small_picture(std::size_t index) {

@@ -1,6 +1,6 @@
 #pragma once
 // Results: what a run leaves behind, file by file. Each can be written alone, so that a single one can be made again
-// and compared. All but the times in result.json and convergence.csv are the same bytes for the same setup and steps.
+// and compared. All but the times in result.json, convergence.csv and report.html are the same bytes for the same setup and steps.
 
 #include <string>
 #include <vector>
@@ -11,6 +11,9 @@
 namespace espalier {
 
 inline constexpr const char* kRunMarker = "run.toml";
+
+/// The text of run.toml.
+std::string settings_text(const Setup& setup);
 
 class ResultWriter {
  public:
@@ -34,16 +37,20 @@ class ResultWriter {
   void write_individual(std::size_t index, const std::string& path, const Provenance& provenance);
 
  private:
+  const Picture& best_picture();
   const Picture& small_picture(std::size_t index);
   void write_small_picture(std::size_t index, const std::string& path, const Provenance& provenance);
   void write_sheet(const std::string& path);
+  void write_report(const std::string& path);
   void write_result(const std::string& path) const;
   void write_convergence(const std::string& path) const;
 
   const Setup& setup_;
   const SearchResult& result_;
+  Executor& executor_;
   std::string settings_;
   ModelFiles files_;
+  Picture best_picture_;                 // empty: not drawn yet
   std::vector<Picture> small_pictures_;  // by individual; empty ones are not drawn yet
 };
 

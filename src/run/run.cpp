@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "run/live_report.h"
 #include "run/reach.h"
 #include "run/results.h"
 #include "run/run_folder.h"
@@ -15,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-RunStart start_of(const Setup& setup, const RunOptions& options, const Executor& executor) {
+RunStart start_of(const Setup& setup, const RunOptions& options, const RunFolder& folder, const Executor& executor) {
   RunStart start;
   start.grammar = setup.graph().name;
   start.engine = setup.scene.search.engine;
@@ -25,6 +26,8 @@ RunStart start_of(const Setup& setup, const RunOptions& options, const Executor&
   start.budget = setup.scene.budget;
   start.threads = executor.workers();
   start.voxels = setup.volume->grid().cell_count();
+  start.refresh_seconds = setup.scene.refresh_seconds;
+  if (start.refresh_seconds > 0) start.live = (fs::path(folder.staging()) / "report.html").string();
   return start;
 }
 
@@ -52,7 +55,7 @@ void finish(RunFolder& folder, const std::string& problem) {
 RunEnd end_of(const SearchResult& result, const RunFolder& folder) {
   RunEnd end;
   end.folder = folder.path();
-  for (const char* name : {"best.glb", "best.obj", "best.png", "alternatives.png", "result.json"}) {
+  for (const char* name : {"report.html", "best.glb", "best.obj", "best.png", "alternatives.png", "result.json"}) {
     end.files.push_back((fs::path(folder.path()) / name).string());
   }
   end.score = result.best.score;
@@ -75,7 +78,7 @@ bool run_scene(const Scene& scene, const RunOptions& options, MeshSource& source
   const std::unique_ptr<Setup> setup = set_up(scene, source);
   // Before the search, so that an unusable folder costs no search.
   RunFolder folder(options.out, kRunMarker);
-  observer.started(start_of(*setup, options, *executor));
+  observer.started(start_of(*setup, options, folder, *executor));
   for (const std::string& warning : setup->warnings) observer.warning(warning);
   for (const std::string& warning : warn_of_reach(*setup)) observer.warning(warning);
 
@@ -83,7 +86,15 @@ bool run_scene(const Scene& scene, const RunOptions& options, MeshSource& source
   control.budget = scene.budget;
   control.stop = options.stop;
   control.observer = &observer;
+  std::optional<LiveReport> live;
+  if (scene.refresh_seconds > 0) {
+    live.emplace(*setup, settings_text(*setup), folder.staging(), folder.path(), scene.refresh_seconds);
+    control.watcher = &*live;
+  }
   const std::optional<SearchResult> result = run_search(*setup, control, *executor);
+  if (const std::string problem = live ? live->end() : ""; !problem.empty()) {
+    observer.warning("the report could not be refreshed: " + problem);
+  }
   if (!result) return false;
 
   observer.writing();

@@ -94,6 +94,7 @@ struct Scene {
   // Not part of the scene file's meaning, and never written back:
   std::string folder;  // that paths are relative to
   int threads = 0;     // 0 = one per core; results do not depend on it
+  double refresh_seconds = 5;  // between refreshes of the report while the search goes on; 0 = none
 
   bool operator==(const Scene&) const = default;
 };

@@ -134,10 +134,12 @@ void read_volume(const TomlValue& table, const std::string& file, SceneVolume& v
   s.finish();
 }
 
-void read_output(const TomlValue& table, const std::string& file, SceneOutput& output) {
+void read_output(const TomlValue& table, const std::string& file, Scene& scene) {
+  SceneOutput& output = scene.output;
   TomlSection s(table, file, "output");
   take(output.keep, s.whole("keep", 0, 99));
   take(output.distance, s.number("distance", 0, 1));
+  take(scene.refresh_seconds, s.number("refresh_seconds", 0, 1e6));
   if (const auto size = s.wholes("picture", 2, 16, 8192)) {
     output.picture = {static_cast<std::uint32_t>((*size)[0]), static_cast<std::uint32_t>((*size)[1])};
   }
@@ -205,7 +207,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   const TomlValue* volume = s.table("volume");
   if (!volume) s.fail("volume", "must be given: the meshes that the model shall fill or avoid");
   read_volume(*volume, name, scene.volume);
-  if (const TomlValue* t = s.table("output")) read_output(*t, name, scene.output);
+  if (const TomlValue* t = s.table("output")) read_output(*t, name, scene);
   s.finish();
   check_whole(root, s, scene);
   return scene;

@@ -65,6 +65,7 @@ std::optional<SearchResult> run_search(const Setup& setup, const SearchControl& 
                                mean_score(engine.population())};
     result.log.push_back(report);
     if (control.observer) control.observer->step(report);
+    if (control.watcher) control.watcher->stepped(report, engine.best());
     result.stopped_by = reason_to_stop(control, report);
     if (report.step % kStepsPerOffer == 1 || !result.stopped_by.empty()) archive.offer(engine.population());
   }

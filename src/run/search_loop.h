@@ -15,11 +15,19 @@
 
 namespace espalier {
 
+/// Is told of every step, with what was found; on the search's own thread, so it must be quick.
+class SearchWatcher {
+ public:
+  virtual ~SearchWatcher() = default;
+  virtual void stepped(const StepReport& report, const Individual& best) = 0;
+};
+
 struct SearchControl {
   SceneBudget budget;
   std::optional<std::uint64_t> exact_steps;  // take precisely these, whatever the budget: to reproduce
   const std::atomic<bool>* stop = nullptr;   // set from outside: end after the step that runs
   RunObserver* observer = nullptr;
+  SearchWatcher* watcher = nullptr;
 };
 
 struct SearchResult {

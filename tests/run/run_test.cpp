@@ -9,6 +9,7 @@
 #include "run/derivation_file.h"
 #include "run/explanation_json.h"
 #include "run/fixtures.h"
+#include "run/report_page.h"
 #include "run/reproduce.h"
 #include "run/scene_toml.h"
 
@@ -56,6 +57,7 @@ std::map<std::string, std::string> comparable(const std::string& folder) {
   std::map<std::string, std::string> files = read_tree(folder);
   for (auto& [name, text] : files) {
     if (name == "result.json" || name == "convergence.csv") text = without_times(name, text);
+    if (name == "report.html") text = testing::without_report_times(text);
   }
   return files;
 }
@@ -88,7 +90,7 @@ TEST(Run, LeavesAWholeFolder) {
                                  "alternatives/01.png", "alternatives/02.derivation.json", "alternatives/02.glb",
                                  "alternatives/02.png", "best.derivation.json", "best.glb", "best.mtl", "best.obj",
                                  "best.png", "convergence.csv", "inputs/pile.esp", "inputs/targets/tower.obj",
-                                 "result.json", "run.toml"));
+                                 "report.html", "result.json", "run.toml"));
   const auto result = nlohmann::json::parse(read_text(folder / "out/result.json"));
   ASSERT_EQ(recorder.ends.size(), 1u);
   EXPECT_EQ(result["score"], recorder.ends[0].score);

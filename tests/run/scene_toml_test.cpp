@@ -230,6 +230,7 @@ const Bad kBad[] = {
      "must multiply to at most 64000000, got 64000000000"},
     {"volume.grid", "min = [0,0]\nmax = [1,1,1]\ncells = [1,1,1]",
      "volume.grid.min must be [x, y, z], got a list of 2"},
+    {"output", "refresh_seconds = -1", "output.refresh_seconds must be a number from 0 to 1000000, got -1"},
     {"output", "keep = 100", "output.keep must be a whole number from 0 to 99, got 100"},
     {"output", "picture = [10, 10]", "output.picture must be a whole number from 16 to 8192, got 10"},
     {"attributes", "a = 1979-05-27", "attributes.a must be a number, true, false or a text, got a date or time"},

@@ -40,6 +40,7 @@ inline Instance part(std::uint16_t mesh, const Frame& frame, float top = 1) {
 }
 
 inline void append(Mesh& mesh, const Mesh& other, const Vec3& move = Vec3(0)) {
+  mesh.uvs.clear();
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (const Vec3& p : other.positions) mesh.positions.push_back(p + move);
   for (const Triangle& t : other.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
@@ -49,6 +50,7 @@ inline Mesh box_mesh(const Vec3& low, const Vec3& high) {
   Mesh mesh = make_primitive(MeshKind::box, 1, 0);
   for (Vec3& p : mesh.positions) p = low + (p + Vec3(0.5f)) * (high - low);
   mesh.normals.clear();
+  mesh.uvs.clear();
   return mesh;
 }
 

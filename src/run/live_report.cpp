@@ -1,0 +1,171 @@
+#include "run/live_report.h"
+
+#include <algorithm>
+#include <ctime>
+#include <exception>
+#include <filesystem>
+
+#include "base/version.h"
+#include "io/file.h"
+#include "io/png.h"
+#include "run/model_files.h"
+#include "run/report.h"
+#include "run/report_text.h"
+#include "run/scene_scorer.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kLargestShare = 0.1;  // of the search's computing
+constexpr double kHindrance = 2;       // a second of painting costs the search up to two: its threads wait for each other
+constexpr double kFirst_s = 1;         // a first picture comes soon
+constexpr std::uint32_t kMostAcross = 480;
+constexpr int kSamples = 4;
+
+RenderSettings small_look(std::array<std::uint32_t, 2> size) {
+  const std::uint32_t longer = std::max({size[0], size[1], kMostAcross});
+  RenderSettings look;
+  look.width = std::max(1u, size[0] * kMostAcross / longer), look.height = std::max(1u, size[1] * kMostAcross / longer);
+  look.samples = kSamples;
+  return look;
+}
+
+/// Computing time so far: CLOCK_THREAD_CPUTIME_ID or CLOCK_PROCESS_CPUTIME_ID.
+double computed_s(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+/// Everything that the thread uses, and nobody else.
+class LiveReport::Painter {
+ public:
+  Painter(const Setup& setup, std::string settings, std::string folder, LiveNote note)
+      : setup_(setup),
+        settings_(std::move(settings)),
+        folder_(std::move(folder)),
+        note_(std::move(note)),
+        executor_(make_serial_executor()),
+        scorer_(setup.graph(), setup.objective, *executor_),
+        look_(small_look(setup.scene.output.picture)),
+        expander_(setup.graph()) {}
+
+  void paint(const Snapshot& snapshot) {
+    if (!targets_) targets_ = target_pictures(setup_, look_, *executor_);
+    result_.best = snapshot.best;
+    result_.log.insert(result_.log.end(), snapshot.steps.begin(), snapshot.steps.end());
+    result_.steps = result_.log.back().step;
+    result_.evaluations = result_.log.back().evaluations;
+    result_.seconds = result_.log.back().seconds;
+    result_.explanation = scorer_.explain(result_.best.derivation);
+    expander_.expand(result_.best.derivation, ExpandTo::full, model_);
+    const std::vector<Material>& materials = setup_.graph().materials;
+    const Picture picture = render(model_, setup_.meshes, materials, setup_.targets, look_, *executor_);
+    const Provenance from = provenance();
+    const std::string png = encode_png(picture.width, picture.height, picture.rgb, "espalier", to_json(from));
+    ReportInput input{setup_, result_, from, {"Best so far", "", png}, *targets_, {}, {}, note_};
+    input.model = make_report_model(model_, setup_.meshes, materials, setup_.targets);
+    const std::string page = report_page(input);
+    write_file((fs::path(folder_) / "best.png").string(), png);
+    write_file((fs::path(folder_) / "report.html").string(), page);
+  }
+
+ private:
+  Provenance provenance() const {
+    Provenance p;
+    p.version = kVersion;
+    p.made_by = "run";
+    p.seed = setup_.scene.seed;
+    p.steps = result_.steps;
+    p.engine = setup_.scene.search.engine;
+    p.inputs = setup_.inputs.hashes();
+    p.settings = settings_;
+    p.settings_folder = ".";
+    p.derivation = hash_text(result_.best.derivation);
+    p.score = result_.best.score;
+    p.optimum = setup_.objective.optimum();
+    return p;
+  }
+
+  const Setup& setup_;
+  std::string settings_, folder_;
+  LiveNote note_;
+  std::unique_ptr<Executor> executor_;
+  SceneScorer scorer_;
+  RenderSettings look_;
+  Expander expander_;
+  Model model_;
+  std::optional<std::vector<ReportPicture>> targets_;
+  SearchResult result_;
+};
+
+LiveReport::LiveReport(const Setup& setup, std::string settings, std::string folder, const std::string& final_folder,
+                       double refresh_seconds)
+    : refresh_seconds_(refresh_seconds),
+      before_s_(computed_s(CLOCK_PROCESS_CPUTIME_ID)),
+      due_s_(std::min(kFirst_s, refresh_seconds)) {
+  LiveNote note;
+  note.refresh_seconds = refresh_seconds;
+  note.final_folder = "../" + url_component(fs::path(final_folder).filename().string()) + "/";
+  painter_ = std::make_unique<Painter>(setup, std::move(settings), std::move(folder), std::move(note));
+  thread_ = std::thread([this] { work(); });
+}
+
+LiveReport::~LiveReport() { end(); }
+
+void LiveReport::stepped(const StepReport& report, const Individual& best) {
+  pending_.push_back(report);
+  const std::lock_guard lock(mutex_);
+  if (!idle_ || snapshot_ || report.seconds < due_s_ || !problem_.empty() || !affordable()) return;
+  snapshot_ = Snapshot{best, std::move(pending_)};
+  pending_.clear();
+  due_s_ = report.seconds + refresh_seconds_;
+  wake_.notify_one();
+}
+
+/// Whether one more as dear as the last would still be within the share; the first is on credit.
+bool LiveReport::affordable() const {
+  if (painted_s_ == 0) return true;
+  const double searched_s = computed_s(CLOCK_PROCESS_CPUTIME_ID) - before_s_ - painted_s_;
+  return kHindrance * (painted_s_ + last_s_) <= kLargestShare * searched_s;
+}
+
+std::string LiveReport::end() {
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    wake_.notify_one();
+  }
+  if (thread_.joinable()) thread_.join();
+  return problem_;
+}
+
+void LiveReport::work() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    wake_.wait(lock, [this] { return ended_ || snapshot_; });
+    if (ended_) return;
+    const Snapshot snapshot = std::move(*snapshot_);
+    snapshot_.reset();
+    idle_ = false;
+    lock.unlock();
+    const double begin = computed_s(CLOCK_THREAD_CPUTIME_ID);
+    std::string problem;
+    try {
+      painter_->paint(snapshot);
+    } catch (const std::exception& error) {  // the search goes on without it, and is told in the end
+      problem = error.what();
+    }
+    const double cost = computed_s(CLOCK_THREAD_CPUTIME_ID) - begin;
+    lock.lock();
+    problem_ = problem;
+    idle_ = true;
+    last_s_ = cost, painted_s_ += cost;
+  }
+}
+
+}  // namespace espalier

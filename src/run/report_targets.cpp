@@ -1,0 +1,39 @@
+#include "run/report_targets.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "io/png.h"
+#include "render/render.h"
+
+namespace espalier {
+namespace {
+
+// "hull.obj (fill 1, spill -1)"
+std::string describe(const SceneMesh& mesh) {
+  const std::string file = std::filesystem::path(mesh.file).filename().string();
+  const char* wish = mesh.fill > 0 ? "fill" : mesh.fill < 0 ? "avoid" : "neutral";
+  return fmt::format("{} ({}, weight {:g})", file, wish, mesh.fill);
+}
+
+ReportPicture volume_picture(const Setup& setup, const RenderSettings& look, Executor& executor) {
+  const Picture drawn = render(Model(), setup.meshes, setup.graph().materials, setup.targets, look, executor);
+  ReportPicture picture;
+  picture.title = setup.targets.size() == 1 ? "Target volume" : "Target volumes";
+  for (const SceneMesh& mesh : setup.scene.volume.meshes) {
+    picture.caption += (picture.caption.empty() ? "" : ", ") + describe(mesh);
+  }
+  picture.png = encode_png(drawn.width, drawn.height, drawn.rgb, "Title", "espalier: targets");
+  return picture;
+}
+
+}  // namespace
+
+std::vector<ReportPicture> target_pictures(const Setup& setup, const RenderSettings& look, Executor& executor) {
+  std::vector<ReportPicture> pictures;
+  if (!setup.targets.empty()) pictures.push_back(volume_picture(setup, look, executor));
+  return pictures;
+}
+
+}  // namespace espalier

@@ -1,0 +1,23 @@
+#pragma once
+// The pictures that targets contribute to a report: what was asked for, shown beside what came out.
+
+#include <string>
+#include <vector>
+
+#include "base/executor.h"
+#include "render/render.h"
+#include "run/setup.h"
+
+namespace espalier {
+
+/// A PNG with words.
+struct ReportPicture {
+  std::string title, caption;
+  std::string png;
+};
+
+/// One picture or more per kind of target, in the order in which they are to be read; each kind adds its own here.
+/// `look` says how large a picture may be, and how good.
+std::vector<ReportPicture> target_pictures(const Setup& setup, const RenderSettings& look, Executor& executor);
+
+}  // namespace espalier
