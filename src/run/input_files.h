@@ -20,7 +20,7 @@ class InputFiles {
   /// Takes the grammar, its imports and the mesh and image files that it names, keeping where they lie relative to each
   /// other. Throws Error.
   void add_grammar(const LoadedGrammar& grammar);
-  /// Takes a target mesh; the same file twice is stored once. Returns its name.
+  /// Takes a target's mesh or image; the same file twice is stored once. Returns its name.
   std::string add_target(const std::string& path);
 
   const std::string& grammar_name() const { return grammar_name_; }

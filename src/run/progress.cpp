@@ -8,9 +8,16 @@
 namespace espalier {
 namespace {
 
+std::string targets_of(const RunStart& start) {
+  std::string text;
+  if (start.voxels > 0) text += fmt::format(", {} voxels", start.voxels);
+  if (start.pixels > 0) text += fmt::format(", {} pixels", start.pixels);
+  return text;
+}
+
 std::string headline(const RunStart& start) {
-  return fmt::format("{} with {}, seed {}, {} thread{}, {} voxels, optimum {:.6g}", start.grammar, start.engine,
-                     start.seed, start.threads, start.threads == 1 ? "" : "s", start.voxels, start.optimum);
+  return fmt::format("{} with {}, seed {}, {} thread{}{}, optimum {:.6g}", start.grammar, start.engine,
+                     start.seed, start.threads, start.threads == 1 ? "" : "s", targets_of(start), start.optimum);
 }
 
 std::string progress_line(const RunStart& start, const StepReport& report) {

@@ -19,7 +19,7 @@ struct RunStart {
   double optimum = 0;
   SceneBudget budget;
   int threads = 1;
-  std::uint64_t voxels = 0;
+  std::uint64_t voxels = 0, pixels = 0;  // of the targets
   std::string live;  // path of the report that is refreshed while the search goes on; empty: none
   double refresh_seconds = 0;
 };

@@ -25,6 +25,7 @@ class JsonLines final : public RunObserver {
            {"seed", start.seed},
            {"threads", start.threads},
            {"voxels", start.voxels},
+           {"pixels", start.pixels},
            {"optimum", start.optimum},
            {"budget", budget},
            {"out", start.out},

@@ -28,10 +28,23 @@ ReportPicture volume_picture(const Setup& setup, const RenderSettings& look, Exe
   return picture;
 }
 
+/// As the search sees the image: dark is wanted, light is not, mid-grey does not matter.
+ReportPicture silhouette_picture(const SilhouetteTarget& target) {
+  const WeightImage& image = target.settings().image;
+  std::vector<std::uint8_t> rgb;
+  for (const std::int32_t degree : image.degrees) {
+    const auto grey = static_cast<std::uint8_t>((std::int64_t{WeightImage::kFull} - degree) * 255 / (2 * WeightImage::kFull));
+    rgb.insert(rgb.end(), 3, grey);
+  }
+  return {"Target silhouette", fmt::format("{}, {} x {} pixels", target.name(), image.width, image.height),
+          encode_png(image.width, image.height, rgb, "Title", "espalier: target")};
+}
+
 }  // namespace
 
 std::vector<ReportPicture> target_pictures(const Setup& setup, const RenderSettings& look, Executor& executor) {
   std::vector<ReportPicture> pictures;
+  for (const SilhouetteTarget* target : setup.silhouettes) pictures.push_back(silhouette_picture(*target));
   if (!setup.targets.empty()) pictures.push_back(volume_picture(setup, look, executor));
   return pictures;
 }

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "run/live_report.h"
-#include "run/reach.h"
+#include "run/probes.h"
 #include "run/results.h"
 #include "run/run_folder.h"
 #include "run/search_loop.h"
@@ -25,7 +25,9 @@ RunStart start_of(const Setup& setup, const RunOptions& options, const RunFolder
   start.optimum = setup.objective.optimum();
   start.budget = setup.scene.budget;
   start.threads = executor.workers();
-  start.voxels = setup.volume->grid().cell_count();
+  start.voxels = setup.volume ? setup.volume->grid().cell_count() : 0;
+  for (const SilhouetteTarget* target : setup.silhouettes)
+    start.pixels += std::uint64_t{target->settings().image.width} * target->settings().image.height;
   start.refresh_seconds = setup.scene.refresh_seconds;
   if (start.refresh_seconds > 0) start.live = (fs::path(folder.staging()) / "report.html").string();
   return start;

@@ -12,6 +12,7 @@
 
 #include "base/vec.h"
 #include "score/limit.h"
+#include "score/silhouette_target.h"
 #include "score/volume_target.h"
 #include "search/ga_settings.h"
 
@@ -73,6 +74,40 @@ struct SceneVolume {
   bool operator==(const SceneVolume&) const = default;
 };
 
+/// A pinhole at `eye`; parallel rays where `tall` gives the height of the picture in metres. `fit`: stands where it sees
+/// what the grammar makes, from that side; settled before the search.
+struct SceneCamera {
+  bool fit = true;
+  double azimuth_deg = 0, elevation_deg = 0;
+  Vec3 eye{0, 0, 10}, at{0}, up{0, 1, 0};
+  double fov_deg = 45, near = 0.1;
+  std::optional<double> tall;
+
+  bool operator==(const SceneCamera&) const = default;
+};
+
+/// A shadow on a plane, cast by a sun (`light` is where its light goes) or a lamp (where it is).
+struct SceneShadow {
+  bool lamp = false;
+  Vec3 light{0, -1, 0};
+  Vec3 centre{0}, normal{0, 1, 0}, up{0, 0, -1};
+  double tall = 10;
+
+  bool operator==(const SceneShadow&) const = default;
+};
+
+struct SceneSilhouette {
+  std::string image;
+  std::optional<std::array<std::uint32_t, 2>> size;  // none: the image's own
+  SilhouetteForm form = SilhouetteForm::linear;
+  VolumeView view = VolumeView::full;
+  double want = 1, avoid = 1, weight = 1;
+  SceneCamera camera;
+  std::optional<SceneShadow> shadow;  // instead of the camera
+
+  bool operator==(const SceneSilhouette&) const = default;
+};
+
 struct SceneOutput {
   std::uint32_t keep = 8;       // alternatives beside the best
   double distance = 0.2;        // least distance of any two kept (run/diversity.h)
@@ -88,7 +123,8 @@ struct Scene {
   SceneBudget budget;
   SceneSearch search;
   SceneLimits limits;
-  SceneVolume volume;
+  SceneVolume volume;  // without meshes: no target
+  std::vector<SceneSilhouette> silhouettes;
   SceneOutput output;
 
   // Not part of the scene file's meaning, and never written back:

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "run/toml_section.h"
+#include "score/silhouette_target.h"
 #include "score/volume_target.h"
 #include "search/ga_settings.h"
 
@@ -12,6 +13,8 @@ namespace espalier {
 inline constexpr Choice<VolumeForm> kVolumeForms[] = {{"linear", VolumeForm::linear},
                                                       {"smootherstep", VolumeForm::smootherstep},
                                                       {"smootherstep-separate", VolumeForm::smootherstep_separate}};
+inline constexpr Choice<SilhouetteForm> kSilhouetteForms[] = {{"linear", SilhouetteForm::linear},
+                                                              {"smootherstep", SilhouetteForm::smootherstep}};
 inline constexpr Choice<VolumeView> kVolumeViews[] = {{"parts", VolumeView::parts}, {"full", VolumeView::full}};
 inline constexpr Choice<OverlapCount> kOverlapCounts[] = {{"voxels", OverlapCount::voxels},
                                                           {"hits", OverlapCount::hits}};

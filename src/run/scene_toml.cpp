@@ -8,6 +8,7 @@
 #include "io/file.h"
 #include "run/scene_choices.h"
 #include "run/scene_limits.h"
+#include "run/scene_silhouettes.h"
 #include "run/toml_section.h"
 
 namespace espalier {
@@ -204,9 +205,13 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   if (const TomlValue* t = s.table("budget")) read_budget(*t, name, scene.budget);
   if (const TomlValue* t = s.table("search")) read_search(*t, name, scene.search);
   if (const TomlValue* t = s.table("limits")) read_limits(*t, name, scene);
-  const TomlValue* volume = s.table("volume");
-  if (!volume) s.fail("volume", "must be given: the meshes that the model shall fill or avoid");
-  read_volume(*volume, name, scene.volume);
+  if (const TomlValue* t = s.table("volume")) read_volume(*t, name, scene.volume);
+  if (const std::vector<TomlValue>* list = s.tables("silhouette")) {
+    if (list->size() > 64) s.fail("silhouette", fmt::format("must be at most 64 silhouettes, got {}", list->size()));
+    for (std::size_t i = 0; i < list->size(); ++i) scene.silhouettes.push_back(read_silhouette((*list)[i], name, i));
+  }
+  if (scene.volume.meshes.empty() && scene.silhouettes.empty())
+    s.fail("", "must have a target: [[volume.mesh]] to fill or avoid, or [[silhouette]] to look like");
   if (const TomlValue* t = s.table("output")) read_output(*t, name, scene);
   s.finish();
   check_whole(root, s, scene);

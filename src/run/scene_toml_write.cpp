@@ -3,6 +3,7 @@
 
 #include "run/scene_choices.h"
 #include "run/scene_limits.h"
+#include "run/scene_silhouettes.h"
 #include "run/scene_toml.h"
 
 namespace espalier {
@@ -83,7 +84,8 @@ std::string to_toml(const Scene& scene) {
   write_budget(w, scene.budget);
   write_search(w, scene.search);
   w.line("\n{}", limits_to_toml(scene));
-  write_volume(w, scene.volume);
+  if (!scene.volume.meshes.empty()) write_volume(w, scene.volume);
+  for (const SceneSilhouette& silhouette : scene.silhouettes) w.line("\n{}", silhouette_to_toml(silhouette));
   w.line("\n[output]\nkeep = {}\ndistance = {}\npicture = [{}, {}]", scene.output.keep,
          format_toml(scene.output.distance), scene.output.picture[0], scene.output.picture[1]);
   return w.take();

@@ -36,8 +36,7 @@ std::string reason_to_stop(const SearchControl& control, const StepReport& repor
 
 // One place more than are kept: the best takes one.
 DiverseArchive make_archive(const Setup& setup) {
-  const VoxelGrid& grid = setup.volume->grid();
-  return DiverseArchive(ModelSketcher(setup.graph(), {grid.min, grid.max}, setup.full()),
+  return DiverseArchive(ModelSketcher(setup.graph(), setup.stage, setup.full()),
                         std::size_t{setup.scene.output.keep} + 1, setup.scene.output.distance);
 }
 

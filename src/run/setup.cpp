@@ -1,13 +1,19 @@
 #include "run/setup.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "base/error.h"
 #include "base/math.h"
+#include "io/image_import.h"
+#include "run/probes.h"
+#include "run/scene_silhouettes.h"
 #include "run/scene_limits.h"
 #include "score/limit_target.h"
 
@@ -59,17 +65,69 @@ std::unique_ptr<VolumeTarget> make_volume_target(Setup& setup) {
   return std::make_unique<VolumeTarget>(std::move(settings), setup.meshes);
 }
 
-void build_objective(Setup& setup) {
+void add_volume(Setup& setup) {
   auto volume = make_volume_target(setup);
   setup.volume = volume.get();
+  setup.stage = {volume->grid().min, volume->grid().max};
   for (const std::string& warning : volume->warnings()) setup.warnings.push_back(warning);
   setup.objective.add(std::move(volume));
-  auto limits = std::make_unique<LimitTarget>(limits_of(setup.scene), setup.meshes, setup.scene.volume.view);
+}
+
+/// The box around most of what the grammar makes: a twentieth of the probes' parts may lie beyond it on each side.
+Bounds box_of_probes(const Setup& setup) {
+  std::vector<float> along[3];
+  for (const Instance& instance : probe_instances(setup.graph(), setup.scene, setup.full())) {
+    const Vec3& at = instance.model_from_mesh.origin;
+    if (!std::isfinite(at.x + at.y + at.z)) continue;
+    for (int i = 0; i < 3; ++i) along[i].push_back(at[i]);
+  }
+  Bounds box;
+  if (along[0].empty()) return {Vec3(-1), Vec3(1)};
+  for (int i = 0; i < 3; ++i) {
+    std::sort(along[i].begin(), along[i].end());
+    const std::size_t cut = along[i].size() / 20;
+    box.min[i] = along[i][cut] - 0.5f, box.max[i] = along[i][along[i].size() - 1 - cut] + 0.5f;
+  }
+  return box;
+}
+
+void add_silhouettes(Setup& setup, const Scene& from) {
+  FileImageSource images;
+  for (std::size_t i = 0; i < from.silhouettes.size(); ++i) {
+    SceneSilhouette& scene = setup.scene.silhouettes[i];
+    const std::string path = resolve(from, scene.image);
+    const WeightImage weights = weights_of(images.load(path).image);
+    scene.image = setup.inputs.add_target(path);
+    if (!scene.size) scene.size = {std::min(weights.width, Projection::kMostPixels), std::min(weights.height, Projection::kMostPixels)};
+    settle_camera(scene, setup.stage);
+    SilhouetteSettings settings;
+    settings.name = fmt::format("silhouette {}", fs::path(path).filename().string());
+    settings.projection = projection_of(scene, *scene.size);
+    settings.image = resized(weights, (*scene.size)[0], (*scene.size)[1]);
+    settings.form = scene.form, settings.view = scene.view, settings.want = scene.want, settings.avoid = scene.avoid;
+    auto target = std::make_unique<SilhouetteTarget>(std::move(settings), setup.meshes);
+    setup.silhouettes.push_back(target.get());
+    setup.objective.add(std::move(target), scene.weight);
+  }
+}
+
+void build_objective(Setup& setup, const Scene& from) {
+  if (!setup.targets.empty()) add_volume(setup);
+  else setup.stage = box_of_probes(setup);
+  add_silhouettes(setup, from);
+  const VolumeView view = setup.full() ? VolumeView::full : VolumeView::parts;
+  auto limits = std::make_unique<LimitTarget>(limits_of(setup.scene), setup.meshes, view);
   for (const std::string& warning : limits->warnings()) setup.warnings.push_back(warning);
   setup.objective.add(std::move(limits));
 }
 
 }  // namespace
+
+bool Setup::full() const {
+  if (!scene.volume.meshes.empty()) return scene.volume.view == VolumeView::full;
+  return std::any_of(scene.silhouettes.begin(), scene.silhouettes.end(),
+                     [](const SceneSilhouette& s) { return s.view == VolumeView::full; });
+}
 
 Mesh place_mesh(Mesh mesh, const SceneMesh& placing) {
   const Mat3 turn =
@@ -103,7 +161,7 @@ std::unique_ptr<Setup> set_up(const Scene& scene, MeshSource& source) {
     setup->scene.volume.meshes[i].file = setup->inputs.add_target(path);
     setup->targets.push_back(place_mesh(source.load(path), mesh));
   }
-  build_objective(*setup);
+  build_objective(*setup, scene);
   return setup;
 }
 

@@ -8,6 +8,7 @@
 #include "run/input_files.h"
 #include "run/scene.h"
 #include "score/combined_objective.h"
+#include "score/silhouette_target.h"
 
 namespace espalier {
 
@@ -18,13 +19,15 @@ struct Setup {
   TextureTable textures;
   std::vector<Mesh> targets;  // in model space, order of scene.volume.meshes
   Objective objective;
-  const VolumeTarget* volume = nullptr;  // in the objective
+  const VolumeTarget* volume = nullptr;  // in the objective, if the scene has one
+  std::vector<const SilhouetteTarget*> silhouettes;  // in the objective, order of scene.silhouettes
+  Bounds stage;  // where models are expected: the grid's box, or where the silhouettes' probes were
   InputFiles inputs;
   std::vector<std::string> warnings;
 
   const GeneratorGraph& graph() const { return *grammar.graph; }
   /// Whether models are shown, counted and exported with their details.
-  bool full() const { return scene.volume.view == VolumeView::full; }
+  bool full() const;
 };
 
 /// Throws Error. `source` reads the mesh files.

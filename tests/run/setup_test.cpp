@@ -7,7 +7,7 @@
 #include "derivation/sample.h"
 #include "io/mesh_import.h"
 #include "run/fixtures.h"
-#include "run/reach.h"
+#include "run/probes.h"
 #include "run/scene_scorer.h"
 #include "run/scene_toml.h"
 
