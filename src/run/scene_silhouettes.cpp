@@ -47,6 +47,7 @@ SceneCamera read_camera(const TomlValue& table, const std::string& file, const s
   if (!camera.fit && !eye && !distance) s.fail("", "must have eye, or distance with azimuth_deg, or fit = true");
   if (eye) camera.eye = *eye;
   if (distance) camera.eye = camera.at + static_cast<float>(*distance) * towards_camera(camera.azimuth_deg, camera.elevation_deg);
+  if (!camera.fit) camera.azimuth_deg = camera.elevation_deg = 0;  // told by `eye` from here on
   s.finish();
   return camera;
 }

@@ -211,7 +211,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
     for (std::size_t i = 0; i < list->size(); ++i) scene.silhouettes.push_back(read_silhouette((*list)[i], name, i));
   }
   if (scene.volume.meshes.empty() && scene.silhouettes.empty())
-    s.fail("", "must have a target: [[volume.mesh]] to fill or avoid, or [[silhouette]] to look like");
+    s.fail("volume", "must be given, or [[silhouette]]: a search needs meshes to fill or images to look like");
   if (const TomlValue* t = s.table("output")) read_output(*t, name, scene);
   s.finish();
   check_whole(root, s, scene);

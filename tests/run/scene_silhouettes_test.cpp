@@ -89,7 +89,7 @@ std::string error_of(const std::string& text) {
 }
 
 TEST(SceneSilhouettes, BadOnesAreNamed) {
-  EXPECT_THAT(error_of(""), HasSubstr("must have a target"));
+  EXPECT_THAT(error_of(""), HasSubstr("volume must be given, or [[silhouette]]"));
   EXPECT_THAT(error_of("[[silhouette]]\nsize = [3, 3]\n"), HasSubstr("silhouette.0.image must be the path"));
   const std::string start = "[[silhouette]]\nimage = \"a.png\"\n";
   EXPECT_THAT(error_of(start + "want = -1\n"), HasSubstr("silhouette.0.want"));
