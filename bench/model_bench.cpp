@@ -1,4 +1,5 @@
-// Expansion: time per gene, against the must of 60 ns and the aim of 20 ns; and a derivation of 50 000 genes (must: 3 ms).
+// Expansion: time per gene, against the must of 60 ns and the aim of 20 ns; and a derivation of 50 000 genes (must: 3
+// ms).
 
 #include <benchmark/benchmark.h>
 
@@ -39,8 +40,9 @@ void expand_per_gene(benchmark::State& state, const char* name) {
     benchmark::DoNotOptimize(model.instances.data());
   }
   CHECK(model.instances.size() >= derivation.size() / 4);
-  state.counters["s_per_gene"] = benchmark::Counter(static_cast<double>(derivation.size()),
-                                                    benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["s_per_gene"] =
+      benchmark::Counter(static_cast<double>(derivation.size()),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   state.counters["parts"] = static_cast<double>(model.instances.size());
 }
 BENCHMARK_CAPTURE(expand_per_gene, spaceship, "spaceship.esp")->Arg(50)->Arg(500)->Arg(5000);
@@ -52,8 +54,8 @@ BENCHMARK_CAPTURE(expand_per_gene, city, "city.esp")->Arg(50)->Arg(201);
 BENCHMARK_CAPTURE(expand_per_gene, city_separate, "city-separate.esp")->Arg(50)->Arg(101);
 BENCHMARK_CAPTURE(expand_per_gene, city_filling, "city-filling.esp")->Arg(50)->Arg(500);
 
-// GenTree, all details of one gene: three branches, eight levels, 9841 spans (must: 5 ms for 10 000). And the largest tree
-// that its genes allow, which ends by the limits of expansion.
+// GenTree, all details of one gene: three branches, eight levels, 9841 spans (must: 5 ms for 10 000). And the largest
+// tree that its genes allow, which ends by the limits of expansion.
 void expand_gentree(benchmark::State& state, int branches, int levels) {
   const auto graph = load("gentree.esp", {{"leafy", "false"}});
   Derivation derivation = grown(*graph, 1);
@@ -74,12 +76,15 @@ BENCHMARK_CAPTURE(expand_gentree, largest, 8, 9)->Unit(benchmark::kMillisecond);
 
 // A tree deep enough to hold 50 000 genes: the spaceship's would take minutes to grow gene by gene.
 void expand_50000_genes(benchmark::State& state) {
-  const auto graph = compile_grammar({"wide.esp", R"(grammar wide 1
+  const auto graph = compile_grammar({"wide.esp",
+                                      R"(grammar wide 1
 start S
 rule S { for k in 0..199 { spawn A } }
 rule A { k ~ uniform(vec(0.5), vec(1))  resize k  move y scope.y / 2  emit box  for i in 0..248 { turn y 1deg  spawn B } }
 rule B { s ~ uniform(0.1, 0.2)  move x s  emit box }
-)", {}}).graph;
+)",
+                                      {}})
+                         .graph;
   CHECK(graph);
   RandomStream random({1, Purpose::test});
   const Derivation derivation = sample(*graph, random, 60'000).derivation;
@@ -90,8 +95,9 @@ rule B { s ~ uniform(0.1, 0.2)  move x s  emit box }
     expander.expand(derivation, ExpandTo::parts, model);
     benchmark::DoNotOptimize(model.instances.data());
   }
-  state.counters["s_per_gene"] = benchmark::Counter(static_cast<double>(derivation.size()),
-                                                    benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["s_per_gene"] =
+      benchmark::Counter(static_cast<double>(derivation.size()),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(expand_50000_genes)->Unit(benchmark::kMillisecond);
 

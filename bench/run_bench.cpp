@@ -32,7 +32,11 @@ void search_scene(benchmark::State& state, const char* scene) {
   for (auto _ : state) evaluations += search(*setup, 100, *executor).evaluations;
   state.SetItemsProcessed(static_cast<std::int64_t>(evaluations));
 }
-BENCHMARK_CAPTURE(search_scene, spaceship, "spaceship.toml")->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(search_scene, spaceship, "spaceship.toml")
+    ->Arg(1)
+    ->Arg(2)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(search_scene, citadel, "citadel.toml")->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 /// Costs next to nothing: what is timed with it is the engine alone.

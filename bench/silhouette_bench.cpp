@@ -1,5 +1,5 @@
-// Silhouettes. Must: 3000 parts (cones and leaves of a tree) on 512 x 512 in 350 us, a tree of 250 genes with convex foliage
-// on 800 x 600 in 150 us, small triangles of meshes at 40 ns each.
+// Silhouettes. Must: 3000 parts (cones and leaves of a tree) on 512 x 512 in 350 us, a tree of 250 genes with convex
+// foliage on 800 x 600 in 150 us, small triangles of meshes at 40 ns each.
 
 #include <benchmark/benchmark.h>
 
@@ -32,7 +32,8 @@ struct Setting {
 
   Setting() {
     GeneratorGraph graph;
-    for (const MeshKind kind : {MeshKind::box, MeshKind::cone, MeshKind::sphere}) graph.meshes.emplace_back().kind = kind;
+    for (const MeshKind kind : {MeshKind::box, MeshKind::cone, MeshKind::sphere})
+      graph.meshes.emplace_back().kind = kind;
     graph.meshes[1].sides = 16;
     for (const char* path : {"gem", "triangles"}) {
       graph.meshes.emplace_back().kind = MeshKind::file;
@@ -114,7 +115,8 @@ BENCHMARK_CAPTURE(silhouette, cones_3000, 512, 512, crown(3000, kCone, 0.35f, 1)
 BENCHMARK_CAPTURE(silhouette, cones_3000_graded, 512, 512, crown(3000, kCone, 0.35f, 1), true)
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(silhouette, boxes_3000, 512, 512, crown(3000, kBox, 0.35f, 2), false)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(silhouette, tree_250, 800, 600, joined(crown(250, kCone, 0.6f, 3), crown(160, kSphere, 0.5f, 4)), false)
+BENCHMARK_CAPTURE(silhouette, tree_250, 800, 600, joined(crown(250, kCone, 0.6f, 3), crown(160, kSphere, 0.5f, 4)),
+                  false)
     ->Unit(benchmark::kMicrosecond);
 
 void outlines(benchmark::State& state, std::vector<Instance> parts) {

@@ -10,7 +10,9 @@ namespace espalier {
 
 CompileResult compile_grammar_file(const std::string& path, const std::map<std::string, std::string>& attributes) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  const ReadImport read = [&](const std::string& name) { return read_file((folder / name).string(), kMostGrammarBytes); };
+  const ReadImport read = [&](const std::string& name) {
+    return read_file((folder / name).string(), kMostGrammarBytes);
+  };
   return compile_grammar({path, read_file(path, kMostGrammarBytes), attributes, read});
 }
 

@@ -22,8 +22,8 @@ struct LoadedGrammar {
   std::string warnings;  // rendered diagnostics; empty if there are none
 };
 
-/// Compiles the grammar of a file, with its attributes set and its imports read. Throws Error naming the file when it cannot
-/// be read; other faults are in the diagnostics.
+/// Compiles the grammar of a file, with its attributes set and its imports read. Throws Error naming the file when it
+/// cannot be read; other faults are in the diagnostics.
 CompileResult compile_grammar_file(const std::string& path, const std::map<std::string, std::string>& attributes);
 
 /// Throws Error holding all rendered diagnostics when the text has errors, or naming the file when it cannot be read.

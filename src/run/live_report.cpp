@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLargestShare = 0.1;  // of the search's computing
-constexpr double kHindrance = 2;       // a second of painting costs the search up to two: its threads wait for each other
+constexpr double kHindrance = 2;  // a second of painting costs the search up to two: its threads wait for each other
 constexpr double kFirst_s = 1;         // a first picture comes soon
 constexpr std::uint32_t kMostAcross = 480;
 constexpr int kSamples = 4;

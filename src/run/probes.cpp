@@ -42,8 +42,10 @@ void warn_of_silhouettes(const Setup& setup, std::span<const Instance> instances
   for (const SilhouetteTarget* target : setup.silhouettes) {
     const auto scratch = target->make_scratch();
     if (target->counts(instances, *scratch).wanted > 0 || target->settings().want == 0) continue;
-    warnings.push_back(fmt::format("{}: none of {} models grown from the grammar reached any of what is wanted; does the "
-                                   "camera look at where it builds?", target->name(), kProbes));
+    warnings.push_back(
+        fmt::format("{}: none of {} models grown from the grammar reached any of what is wanted; does the "
+                    "camera look at where it builds?",
+                    target->name(), kProbes));
   }
 }
 

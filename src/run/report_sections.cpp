@@ -34,10 +34,11 @@ std::string term_row(const Term& term, double target_weight, double largest) {
   if (term.of > 0) {
     count += fmt::format(" <small>{} of {}</small>", percent(term.count / term.of), readable_number(term.of));
   }
-  return fmt::format("<tr><th scope=\"row\">{}</th><td data-label=\"counted\">{}</td>"
-                     "<td data-label=\"weight\">{}</td><td data-label=\"adds\" class=\"{}\">{}{}</td><td>{}</td></tr>\n",
-                     escape_html(term.name), count, readable_number(term.weight * target_weight),
-                     value < 0 ? "minus" : "", value > 0 ? "+" : "", readable_number(value), bar(value, largest));
+  return fmt::format(
+      "<tr><th scope=\"row\">{}</th><td data-label=\"counted\">{}</td>"
+      "<td data-label=\"weight\">{}</td><td data-label=\"adds\" class=\"{}\">{}{}</td><td>{}</td></tr>\n",
+      escape_html(term.name), count, readable_number(term.weight * target_weight), value < 0 ? "minus" : "",
+      value > 0 ? "+" : "", readable_number(value), bar(value, largest));
 }
 
 std::string hash_row(const std::string& name, const std::string& value) {
@@ -96,15 +97,18 @@ std::string score_html(const Explanation& explanation) {
   }
   std::string html;
   for (const Explanation& target : explanation.targets) {
-    html += fmt::format("<table class=\"terms\">\n<caption><b>{}</b>{}</caption>\n<thead><tr><th scope=\"col\">term</th>"
-                        "<th scope=\"col\">counted</th><th scope=\"col\">weight</th><th scope=\"col\">adds</th>"
-                        "<th><span class=\"unseen\">bar</span></th></tr></thead>\n<tbody>\n",
-                        escape_html(target.name), target.words.empty() ? "" : ": " + escape_html(target.words));
+    html += fmt::format(
+        "<table class=\"terms\">\n<caption><b>{}</b>{}</caption>\n<thead><tr><th scope=\"col\">term</th>"
+        "<th scope=\"col\">counted</th><th scope=\"col\">weight</th><th scope=\"col\">adds</th>"
+        "<th><span class=\"unseen\">bar</span></th></tr></thead>\n<tbody>\n",
+        escape_html(target.name), target.words.empty() ? "" : ": " + escape_html(target.words));
     for (const Term& term : target.terms) html += term_row(term, target.weight, largest);
     const double score = target.score * target.weight, best = target.optimum * target.weight;
-    html += fmt::format("</tbody>\n<tfoot><tr><th scope=\"row\">together</th><td colspan=\"2\">of at most {}</td>"
-                        "<td>{}</td><td>{}</td></tr></tfoot>\n</table>\n", readable_number(best), readable_number(score),
-                        target.percent ? fmt::format("{:.1f}&thinsp;%", *target.percent) : "");
+    html += fmt::format(
+        "</tbody>\n<tfoot><tr><th scope=\"row\">together</th><td colspan=\"2\">of at most {}</td>"
+        "<td>{}</td><td>{}</td></tr></tfoot>\n</table>\n",
+        readable_number(best), readable_number(score),
+        target.percent ? fmt::format("{:.1f}&thinsp;%", *target.percent) : "");
   }
   return html;
 }

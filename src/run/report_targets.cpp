@@ -33,7 +33,8 @@ ReportPicture silhouette_picture(const SilhouetteTarget& target) {
   const WeightImage& image = target.settings().image;
   std::vector<std::uint8_t> rgb;
   for (const std::int32_t degree : image.degrees) {
-    const auto grey = static_cast<std::uint8_t>((std::int64_t{WeightImage::kFull} - degree) * 255 / (2 * WeightImage::kFull));
+    const auto grey =
+        static_cast<std::uint8_t>((std::int64_t{WeightImage::kFull} - degree) * 255 / (2 * WeightImage::kFull));
     rgb.insert(rgb.end(), 3, grey);
   }
   return {"Target silhouette", fmt::format("{}, {} x {} pixels", target.name(), image.width, image.height),

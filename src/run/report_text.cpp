@@ -123,7 +123,8 @@ Picture shrunk(const Picture& picture, std::uint32_t most) {
     const std::size_t x = out / 3 % small.width * factor, y = out / 3 / small.width * factor;
     std::uint64_t sum = 0;
     for (std::size_t j = 0; j < rows; ++j) {
-      for (std::size_t i = 0; i < factor; ++i) sum += to_light(picture.rgb[3 * (x + i + picture.width * (y + j)) + out % 3]);
+      for (std::size_t i = 0; i < factor; ++i)
+        sum += to_light(picture.rgb[3 * (x + i + picture.width * (y + j)) + out % 3]);
     }
     small.rgb[out] = from_light((sum + rows * factor / 2) / (std::uint64_t{rows} * factor));
   }

@@ -1,6 +1,7 @@
 #pragma once
 // Results: what a run leaves behind, file by file. Each can be written alone, so that a single one can be made again
-// and compared. All but the times in result.json, convergence.csv and report.html are the same bytes for the same setup and steps.
+// and compared. All but the times in result.json, convergence.csv and report.html are the same bytes for the same setup
+// and steps.
 
 #include <string>
 #include <vector>

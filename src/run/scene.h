@@ -74,8 +74,8 @@ struct SceneVolume {
   bool operator==(const SceneVolume&) const = default;
 };
 
-/// A pinhole at `eye`; parallel rays where `tall` gives the height of the picture in metres. `fit`: stands where it sees
-/// what the grammar makes, from that side; settled before the search.
+/// A pinhole at `eye`; parallel rays where `tall` gives the height of the picture in metres. `fit`: stands where it
+/// sees what the grammar makes, from that side; settled before the search.
 struct SceneCamera {
   bool fit = true;
   double azimuth_deg = 0, elevation_deg = 0;

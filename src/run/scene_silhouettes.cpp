@@ -46,7 +46,8 @@ SceneCamera read_camera(const TomlValue& table, const std::string& file, const s
   if (eye && (distance || camera.fit)) s.fail("eye", "must not stand beside distance or fit: those place the camera");
   if (!camera.fit && !eye && !distance) s.fail("", "must have eye, or distance with azimuth_deg, or fit = true");
   if (eye) camera.eye = *eye;
-  if (distance) camera.eye = camera.at + static_cast<float>(*distance) * towards_camera(camera.azimuth_deg, camera.elevation_deg);
+  if (distance)
+    camera.eye = camera.at + static_cast<float>(*distance) * towards_camera(camera.azimuth_deg, camera.elevation_deg);
   if (!camera.fit) camera.azimuth_deg = camera.elevation_deg = 0;  // told by `eye` from here on
   s.finish();
   return camera;
@@ -56,7 +57,8 @@ SceneShadow read_shadow(const TomlValue& table, const std::string& file, const s
   TomlSection s(table, file, path);
   SceneShadow shadow;
   const auto sun = s.vector("sun", -kFarthest, kFarthest), lamp = s.vector("lamp", -kFarthest, kFarthest);
-  if (sun.has_value() == lamp.has_value()) s.fail("", "must have either sun (where its light goes) or lamp (where it is)");
+  if (sun.has_value() == lamp.has_value())
+    s.fail("", "must have either sun (where its light goes) or lamp (where it is)");
   shadow.lamp = lamp.has_value();
   shadow.light = lamp ? *lamp : *sun;
   take(shadow.centre, s.vector("centre", -kFarthest, kFarthest));
@@ -83,7 +85,8 @@ std::string camera_text(const SceneCamera& c) {
   } else {
     text += fmt::format("eye = {}\nat = {}\n", vector_text(c.eye), vector_text(c.at));
   }
-  text += fmt::format("up = {}\nfov_deg = {}\nnear = {}\n", vector_text(c.up), format_toml(c.fov_deg), format_toml(c.near));
+  text +=
+      fmt::format("up = {}\nfov_deg = {}\nnear = {}\n", vector_text(c.up), format_toml(c.fov_deg), format_toml(c.near));
   if (c.tall) text += fmt::format("tall = {}\n", format_toml(*c.tall));
   return text;
 }
@@ -114,9 +117,10 @@ SceneSilhouette read_silhouette(const TomlValue& table, const std::string& file,
 }
 
 std::string silhouette_to_toml(const SceneSilhouette& s) {
-  std::string text = fmt::format("[[silhouette]]\nimage = {}\nform = \"{}\"\nview = \"{}\"\nwant = {}\navoid = {}\nweight = {}\n",
-                                 quote_toml(s.image), word_for(kSilhouetteForms, s.form), word_for(kVolumeViews, s.view),
-                                 format_toml(s.want), format_toml(s.avoid), format_toml(s.weight));
+  std::string text =
+      fmt::format("[[silhouette]]\nimage = {}\nform = \"{}\"\nview = \"{}\"\nwant = {}\navoid = {}\nweight = {}\n",
+                  quote_toml(s.image), word_for(kSilhouetteForms, s.form), word_for(kVolumeViews, s.view),
+                  format_toml(s.want), format_toml(s.avoid), format_toml(s.weight));
   if (s.size) text += fmt::format("size = [{}, {}]\n", (*s.size)[0], (*s.size)[1]);
   if (!s.shadow) return text + camera_text(s.camera);
   const SceneShadow& w = *s.shadow;

@@ -51,9 +51,10 @@ void write_search(SceneWriter& w, const SceneSearch& search) {
          format_toml(ga.grow), format_toml(ga.cut), format_toml(ga.alter), format_toml(ga.nudge));
   w.line("first = \"{}\"\nsecond = \"{}\"\ntournament_size = {}", word_for(kSelectionSchemes, ga.first),
          word_for(kSelectionSchemes, ga.second), ga.tournament_size);
-  w.line("crossover = \"{}\"\nretries = {}\nreplace_probability = {}\nreuse_scores = {}\nunique = {}\nrestart_after = {}",
-         word_for(kCompatibilities, ga.crossover), ga.retries, format_toml(ga.replace_probability), ga.reuse_scores,
-         ga.unique, ga.restart_after);
+  w.line(
+      "crossover = \"{}\"\nretries = {}\nreplace_probability = {}\nreuse_scores = {}\nunique = {}\nrestart_after = {}",
+      word_for(kCompatibilities, ga.crossover), ga.retries, format_toml(ga.replace_probability), ga.reuse_scores,
+      ga.unique, ga.restart_after);
 }
 
 void write_volume(SceneWriter& w, const SceneVolume& volume) {

@@ -98,7 +98,9 @@ void add_silhouettes(Setup& setup, const Scene& from) {
     const std::string path = resolve(from, scene.image);
     const WeightImage weights = weights_of(images.load(path).image);
     scene.image = setup.inputs.add_target(path);
-    if (!scene.size) scene.size = {std::min(weights.width, Projection::kMostPixels), std::min(weights.height, Projection::kMostPixels)};
+    if (!scene.size)
+      scene.size = {std::min(weights.width, Projection::kMostPixels),
+                    std::min(weights.height, Projection::kMostPixels)};
     settle_camera(scene, setup.stage);
     SilhouetteSettings settings;
     settings.name = fmt::format("silhouette {}", fs::path(path).filename().string());

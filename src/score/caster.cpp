@@ -187,7 +187,8 @@ bool meets(const Caster& caster, const Instance& instance, const PixelRay& ray) 
   const auto placed = [&](std::uint32_t i) {
     const Vec3& c = caster.corners[i];
     const double k = c.y > 0 ? top : 1;
-    return wide(m.origin) + wide(m.basis[0]) * (k * c.x) + wide(m.basis[1]) * double{c.y} + wide(m.basis[2]) * (k * c.z);
+    return wide(m.origin) + wide(m.basis[0]) * (k * c.x) + wide(m.basis[1]) * double{c.y} +
+           wide(m.basis[2]) * (k * c.z);
   };
   return std::any_of(caster.triangles.begin(), caster.triangles.end(), [&](const Triangle& t) {
     return meets_triangle(placed(t[0]), placed(t[1]), placed(t[2]), ray);

@@ -12,10 +12,10 @@ namespace espalier {
 
 struct Caster {
   enum class Kind : std::uint8_t {
-    nothing,    // no triangles
-    sphere,     // radius 1/2
-    round,      // cylinders and cones of at least kRoundFromSides sides (solid.h): radius 1/2 at y = -1/2, top / 2 at +1/2
-    convex,     // closed and convex, or flat with a convex border
+    nothing,  // no triangles
+    sphere,   // radius 1/2
+    round,   // cylinders and cones of at least kRoundFromSides sides (solid.h): radius 1/2 at y = -1/2, top / 2 at +1/2
+    convex,  // closed and convex, or flat with a convex border
     triangles,  // anything else
   };
   Kind kind = Kind::nothing;

@@ -28,7 +28,8 @@ void validate(Measure measure, const Limit& limit);
 
 /// The length terms of the papers' scores, as limits on genes. `genes_min` and `genes_max` are the hard ones.
 ///   length-2016: 0.2 * S(40, 100)               (Haubenwallner et al. 2016, eq. 4, with the values of section 4.2)
-///   length-2017: 0.1 * S(genes_min, genes_max)  (the experiments of ShapeGenetics 2017: the ramp spans what is allowed)
+///   length-2017: 0.1 * S(genes_min, genes_max)  (the experiments of ShapeGenetics 2017: the ramp spans what is
+///   allowed)
 /// Throws Error for another name.
 Limit length_term(std::string_view preset, double genes_min, double genes_max);
 

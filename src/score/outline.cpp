@@ -92,7 +92,8 @@ OutlineMaker::Result OutlineMaker::set(const Caster& caster, const Instance& ins
     return Result::outline;
   }
   for (const auto& [a, b] : caster.edges) add_segment(corners_[a], corners_[b], &cuts_);
-  // Where the nearest plane cuts a polyhedron, the cut is convex too: its border is among the lines between its corners.
+  // Where the nearest plane cuts a polyhedron, the cut is convex too: its border is among the lines between its
+  // corners.
   for (std::size_t i = 0; i < cuts_.size(); ++i)
     for (std::size_t j = i + 1; j < cuts_.size(); ++j) add_segment(cuts_[i], cuts_[j], nullptr);
   return finish() ? Result::outline : Result::nothing;
@@ -128,8 +129,8 @@ void OutlineMaker::add_segment(const DVec3& a_in, const DVec3& b_in, std::vector
   include(segments_.back().b);
 }
 
-// The outline of a ball (a circle or a sphere) is an ellipse, whose dual conic is m m' - sum r r' (Hartley and Zisserman,
-// Multiple View Geometry, 8.3). Coordinates are taken from near its middle, so nothing cancels.
+// The outline of a ball (a circle or a sphere) is an ellipse, whose dual conic is m m' - sum r r' (Hartley and
+// Zisserman, Multiple View Geometry, 8.3). Coordinates are taken from near its middle, so nothing cancels.
 bool OutlineMaker::add_ellipse(const Ball& ball) {
   const Pixel from = divided<Pixel>(ball.middle);
   double ww = ball.middle.z * ball.middle.z, xw = 0, yw = 0, xx = 0, xy = 0, yy = 0;
@@ -163,7 +164,8 @@ OutlineMaker::Result OutlineMaker::set_sphere() {
 }
 
 OutlineMaker::Result OutlineMaker::set_round(double top) {
-  const DVec3 u = 0.5 * axis_[0], v = 0.5 * axis_[2], lower = centre_ - 0.5 * axis_[1], upper = centre_ + 0.5 * axis_[1];
+  const DVec3 u = 0.5 * axis_[0], v = 0.5 * axis_[2], lower = centre_ - 0.5 * axis_[1],
+              upper = centre_ + 0.5 * axis_[1];
   const double reach = std::sqrt(u.z * u.z + v.z * v.z), nearest = projection_.nearest;
   if (!(lower.z + reach >= nearest) && !(upper.z + top * reach >= nearest)) return Result::nothing;
   if (!(lower.z - reach >= nearest && upper.z - top * reach >= nearest)) return by_pixel();
@@ -174,8 +176,8 @@ OutlineMaker::Result OutlineMaker::set_round(double top) {
   return finish() ? Result::outline : Result::nothing;
 }
 
-// Generators of the side that are seen edge-on. With points on the rims B(t) = lower + u cos t + v sin t and T(t) of the
-// upper rim, det(B, T, B') = 0, which is linear in cos t and sin t since T - ratio B does not depend on t.
+// Generators of the side that are seen edge-on. With points on the rims B(t) = lower + u cos t + v sin t and T(t) of
+// the upper rim, det(B, T, B') = 0, which is linear in cos t and sin t since T - ratio B does not depend on t.
 void OutlineMaker::add_tangents(const DVec3& lower, const DVec3& upper, double ratio) {
   const DVec3 u = 0.5 * axis_[0], v = 0.5 * axis_[2], e = upper - ratio * lower;
   const double a = det(lower, e, v), b = -det(lower, e, u), c = det(u, e, v);

@@ -1,7 +1,7 @@
 #pragma once
-// Outline: what bounds one part in an image. The outline of a convex part meets a row of pixels at most twice, so it is kept
-// as pieces whose least and greatest column in a row bound the part there: straight edges (all of a polyhedron's, for
-// those inside do no harm) and ellipses (a sphere's, and the rims of cylinders and cones).
+// Outline: what bounds one part in an image. The outline of a convex part meets a row of pixels at most twice, so it is
+// kept as pieces whose least and greatest column in a row bound the part there: straight edges (all of a polyhedron's,
+// for those inside do no harm) and ellipses (a sphere's, and the rims of cylinders and cones).
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 // PixelCanvas: one bit per pixel of an image, in tiles that a SIMD register holds: 8 rows by 32 columns.
-// words[(row / 8 * across + column / 32) * 8 + row % 8], bit 31 - column % 32; across = ceil(width / 32). Padding bits are
-// never set.
+// words[(row / 8 * across + column / 32) * 8 + row % 8], bit 31 - column % 32; across = ceil(width / 32). Padding bits
+// are never set.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
-// Projection: how model space falls onto an image: by a pinhole camera, by parallel rays, or as a shadow on a plane. A 3x4
-// matrix takes a point to homogeneous pixels (X, Y, W): column X / W from the left edge, row Y / W from the top edge, both
-// 0.5 at the middle of the first pixel; W > 0 before the camera.
+// Projection: how model space falls onto an image: by a pinhole camera, by parallel rays, or as a shadow on a plane. A
+// 3x4 matrix takes a point to homogeneous pixels (X, Y, W): column X / W from the left edge, row Y / W from the top
+// edge, both 0.5 at the middle of the first pixel; W > 0 before the camera.
 
 #include <array>
 #include <cstdint>
@@ -35,8 +35,8 @@ struct LookAt {
   DVec3 eye{0, 0, 10}, at{0, 0, 0}, up{0, 1, 0};
 };
 
-/// A pinhole: the vertical angle of view in degrees, above 0 and below 180; `nearest` > 0 in metres along the axis. Throws
-/// Error for values out of range or a camera that looks at itself or along `up`.
+/// A pinhole: the vertical angle of view in degrees, above 0 and below 180; `nearest` > 0 in metres along the axis.
+/// Throws Error for values out of range or a camera that looks at itself or along `up`.
 Projection perspective(const LookAt& look, double fov_deg, double nearest, std::uint32_t width, std::uint32_t height);
 
 /// Parallel rays along the axis: the picture is `tall` metres high. Throws Error likewise.
@@ -50,12 +50,12 @@ struct ShadowScreen {
 
 /// The shadow that a sun casts, whose light travels along `direction`. Throws Error where light runs along the screen.
 Projection sun_shadow(const DVec3& direction, const ShadowScreen& screen, std::uint32_t width, std::uint32_t height);
-/// The shadow that a lamp casts; what is not between it and the screen's plane, or beyond, casts none. Throws Error where
-/// the lamp lies in the plane.
+/// The shadow that a lamp casts; what is not between it and the screen's plane, or beyond, casts none. Throws Error
+/// where the lamp lies in the plane.
 Projection lamp_shadow(const DVec3& lamp, const ShadowScreen& screen, std::uint32_t width, std::uint32_t height);
 
-/// The points that fall onto one point of the image: origin + t * direction for t >= least, where W = t (perspective), or
-/// for all t (parallel: least is -infinity).
+/// The points that fall onto one point of the image: origin + t * direction for t >= least, where W = t (perspective),
+/// or for all t (parallel: least is -infinity).
 struct PixelRay {
   DVec3 origin, direction;
   double least;

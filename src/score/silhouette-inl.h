@@ -1,4 +1,5 @@
-// Drawing outlines into a canvas of pixels and weighing what is covered, eight rows at a time. Included once per target.
+// Drawing outlines into a canvas of pixels and weighing what is covered, eight rows at a time. Included once per
+// target.
 
 #if defined(ESPALIER_SCORE_SILHOUETTE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ESPALIER_SCORE_SILHOUETTE_INL_H
@@ -25,8 +26,9 @@ struct RowSpans {
 
   HWY_INLINE RowSpans() : low(F8::all(kNowhere)), high(F8::all(-kNowhere)) {}
   HWY_INLINE void add(const OutlineEdge& edge, const F8& y) {
-    const F8 x = smaller(larger(F8::all(edge.x) + F8::all(edge.slope) * (y - F8::all(edge.y_low)), F8::all(edge.x_least)),
-                         F8::all(edge.x_most));
+    const F8 x =
+        smaller(larger(F8::all(edge.x) + F8::all(edge.slope) * (y - F8::all(edge.y_low)), F8::all(edge.x_least)),
+                F8::all(edge.x_most));
     const F8 outside = less(y, F8::all(edge.y_low)) | less(F8::all(edge.y_high), y);
     low = choose(outside, low, smaller(low, x));
     high = choose(outside, high, larger(high, x));
@@ -129,7 +131,8 @@ HWY_INLINE void sweep_graded(PixelCanvas& canvas, const WeightTiles& weights, Si
     const U8 bits = U8::load(canvas.words.data() + at);
     if (!any(bits)) continue;
     zero.store(canvas.words.data() + at);
-    const U8 all_wanted = U8::load(weights.wanted.words.data() + at), all_free = U8::load(weights.free.words.data() + at);
+    const U8 all_wanted = U8::load(weights.wanted.words.data() + at),
+             all_free = U8::load(weights.free.words.data() + at);
     const U8 want = bits & all_wanted, leave = bits & all_free;
     covered = covered + population(bits);
     wanted = wanted + population(want);

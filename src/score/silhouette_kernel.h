@@ -1,7 +1,8 @@
 #pragma once
-// SilhouetteKernel: the fast way to see how a model's silhouette covers an image of weights. Parts become outlines, eight
-// rows of which are drawn at a time as spans of bits; one sweep adds up the weights of what is covered. Runs on AVX2,
-// SSE4, SSSE3 or without SIMD, chosen at run time, with equal results; reference_silhouette.h is what it is tested against.
+// SilhouetteKernel: the fast way to see how a model's silhouette covers an image of weights. Parts become outlines,
+// eight rows of which are drawn at a time as spans of bits; one sweep adds up the weights of what is covered. Runs on
+// AVX2, SSE4, SSSE3 or without SIMD, chosen at run time, with equal results; reference_silhouette.h is what it is
+// tested against.
 
 #include <cstdint>
 #include <span>
@@ -25,7 +26,8 @@ struct SilhouetteCounts {
   bool operator==(const SilhouetteCounts&) const = default;
 };
 
-/// The weights in tiles: which pixels are wanted or to be left free, and unless all degrees of a kind are alike, how much.
+/// The weights in tiles: which pixels are wanted or to be left free, and unless all degrees of a kind are alike, how
+/// much.
 struct WeightTiles {
   explicit WeightTiles(const WeightImage& image);
 

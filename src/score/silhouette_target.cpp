@@ -85,7 +85,8 @@ Explanation SilhouetteTarget::explain(const Derivation&, const Model& model, Tar
   };
   term("wanted and covered", settings_.want, counted.wanted, all.wanted, {.wanted_sum = counted.wanted_sum});
   term("covered, to be left free", -settings_.avoid, counted.free, counted.covered, {.free_sum = counted.free_sum});
-  e.words = fmt::format("{} of what is wanted covered, {} spilled", percentage(degrees(counted.wanted_sum), degrees(all.wanted_sum)),
+  e.words = fmt::format("{} of what is wanted covered, {} spilled",
+                        percentage(degrees(counted.wanted_sum), degrees(all.wanted_sum)),
                         percentage(static_cast<double>(counted.free), static_cast<double>(counted.covered)));
   return e;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The silhouette target: what a model covers in an image, weighed by what a drawing wants there: from a camera, or as a shadow.
-// (ShapeGenetics 2017, section 8.)
+// The silhouette target: what a model covers in an image, weighed by what a drawing wants there: from a camera, or as a
+// shadow. (ShapeGenetics 2017, section 8.)
 
 #include <memory>
 #include <string>
@@ -12,8 +12,8 @@
 
 namespace espalier {
 
-// wanted, free: sums of the degrees (0..1) of covered pixels that are wanted, or to be left free; T = all that is wanted, or
-// where nothing is, all that is to be left free. S = smootherstep from 0.
+// wanted, free: sums of the degrees (0..1) of covered pixels that are wanted, or to be left free; T = all that is
+// wanted, or where nothing is, all that is to be left free. S = smootherstep from 0.
 enum class SilhouetteForm : std::uint8_t {
   linear,        // want * wanted - avoid * free                     (2017, section 8): in pixels
   smootherstep,  // want * S(wanted / T) - avoid * S(free / T)       (the published program)
@@ -31,8 +31,8 @@ struct SilhouetteSettings {
 /// Immutable once made; shared by threads, each with a scratch from make_scratch().
 class SilhouetteTarget final : public Target {
  public:
-  /// Keeps what it needs of `meshes` (the parts that models are made of). Throws Error on weights that are not finite or
-  /// below 0, an image of another size than the projection's, or one in which no pixel matters.
+  /// Keeps what it needs of `meshes` (the parts that models are made of). Throws Error on weights that are not finite
+  /// or below 0, an image of another size than the projection's, or one in which no pixel matters.
   SilhouetteTarget(SilhouetteSettings settings, const MeshTable& meshes);
   ~SilhouetteTarget() override;
 

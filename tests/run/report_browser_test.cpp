@@ -140,13 +140,16 @@ TEST_F(Browser, AReportOfARunThatGoesOnLoadsItselfAnew) {
 }
 
 TEST_F(Browser, FitsANarrowPhone) {
-  const std::string document = document_of(driven(report(), R"(
+  const std::string document = document_of(
+      driven(report(), R"(
     Object.assign(document.body.style, {width: "360px", margin: 0});
     // No window is that narrow; the layout for phones begins at 560 pixels.
     const wide = [...document.querySelectorAll("header, section, figure")].filter((box) =>
         box.scrollWidth > box.clientWidth + 1 || box.getBoundingClientRect().right > 360);
     seen.push(innerWidth < 560, page.byId("plot").clientWidth > 200, ...wide.map((box) => box.outerHTML.slice(0, 60)));
-  )"), 6000, "--hide-scrollbars --window-size=500,800 --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader");
+  )"),
+      6000,
+      "--hide-scrollbars --window-size=500,800 --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader");
   EXPECT_EQ(attribute(document, "<html", "data-ready"), "ok");
   EXPECT_EQ(attribute(document, "<html", "data-seen"), "true;true");
 }

@@ -119,7 +119,9 @@ TEST(SceneSilhouettes, ACameraThatLooksAwayIsWarnedOf) {
   const TemporaryFolder folder;
   write_tower(folder);
   const auto setup = set_up_in(
-      folder, scene_with("[[silhouette]]\nimage = \"tower.png\"\n[silhouette.camera]\neye = [0, 500, 900]\nat = [0, 500, 0]\n"));
+      folder,
+      scene_with(
+          "[[silhouette]]\nimage = \"tower.png\"\n[silhouette.camera]\neye = [0, 500, 900]\nat = [0, 500, 0]\n"));
   EXPECT_THAT(warn_of_reach(*setup), ::testing::ElementsAre(HasSubstr("does the camera look")));
 }
 

@@ -82,7 +82,8 @@ WeightImage striped(std::uint32_t width, std::uint32_t height, bool graded) {
   for (std::uint32_t row = 0; row < height; ++row) {
     for (std::uint32_t column = 0; column < width; ++column) {
       const int band = static_cast<int>((column / 7 + row / 5) % 3) - 1;
-      image.degrees.push_back(band * (graded ? static_cast<std::int32_t>(1 + (column * 31 + row * 17) % 65535) : 65535));
+      image.degrees.push_back(band *
+                              (graded ? static_cast<std::int32_t>(1 + (column * 31 + row * 17) % 65535) : 65535));
     }
   }
   return image;
@@ -94,7 +95,8 @@ bool near_an_edge(const Projection& projection, const std::vector<Caster>& caste
                   std::uint32_t column, std::uint32_t row, bool covered, double reach) {
   for (int k = 0; k < 16; ++k) {
     const double angle = k * 0.3926990816987242;
-    const PixelRay ray = ray_through(projection, column + 0.5 + reach * std::cos(angle), row + 0.5 + reach * std::sin(angle));
+    const PixelRay ray =
+        ray_through(projection, column + 0.5 + reach * std::cos(angle), row + 0.5 + reach * std::sin(angle));
     bool hit = false;
     for (const Instance& p : parts) hit = hit || meets(casters[p.mesh], p, ray);
     if (hit != covered) return true;
@@ -204,7 +206,8 @@ TEST(SilhouetteKernel, ViewsShowTheirLayers) {
   SilhouetteScratch scratch(projection);
   std::vector<Instance> parts = {part(0, Frame{})};
   for (const auto& [layer, in_parts_view, in_full_view] :
-       {std::tuple(Layer::rule, true, true), std::tuple(Layer::proxy, true, false), std::tuple(Layer::detail, false, true)}) {
+       {std::tuple(Layer::rule, true, true), std::tuple(Layer::proxy, true, false),
+        std::tuple(Layer::detail, false, true)}) {
     parts[0].layer = layer;
     EXPECT_EQ(kernel.count(parts, VolumeView::parts, scratch).covered > 0, in_parts_view);
     EXPECT_EQ(kernel.count(parts, VolumeView::full, scratch).covered > 0, in_full_view);

@@ -35,7 +35,8 @@ TEST(WeightImage, TheMeanStaysWhatItIs) {
     const WeightImage small = resized(image, 1 + random.below(image.width), 1 + random.below(image.height));
     double other = 0;
     for (const std::int32_t degree : small.degrees) other += degree;
-    EXPECT_NEAR(other / static_cast<double>(small.degrees.size()), mean / static_cast<double>(image.degrees.size()), 0.51);
+    EXPECT_NEAR(other / static_cast<double>(small.degrees.size()), mean / static_cast<double>(image.degrees.size()),
+                0.51);
   }
 }
 
