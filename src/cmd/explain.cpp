@@ -6,7 +6,7 @@
 #include "cmd/attributes.h"
 #include "cmd/text_table.h"
 #include "cmd/verbs.h"
-#include "derivation/natural_log.h"
+#include "base/natural_log.h"
 #include "io/mesh_import.h"
 
 namespace espalier {

@@ -250,7 +250,7 @@ bool Machine::run(const Program& program, const Derivation* derivation) {
       case OpCode::draw_normal: registers_[op.dst] = draw_normal(op, quantile<kGene>(op, 0)); break;
       case OpCode::draw_loguniform: {
         const float low = value(op.x);
-        registers_[op.dst] = low * std::pow(value(op.y) / low, quantile<kGene>(op, 0));
+        registers_[op.dst] = low * power(value(op.y) / low, quantile<kGene>(op, 0));
         break;
       }
       case OpCode::draw_integer: {
