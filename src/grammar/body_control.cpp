@@ -99,7 +99,7 @@ void BodyCompiler::turning(const ast::Stmt& stmt, const Operand& first_in, const
 void BodyCompiler::around(const ast::Stmt& stmt, const NameScope& scope) {
   const Operand wanted = builder_.unary(Arithmetic::round, expressions_.scalar(*stmt.exprs[0], scope));
   const Operand count =
-      builder_.capture(builder_.ternary(Arithmetic::clamp, wanted, constant_operand(1), constant_operand(kMostTurns)));
+      builder_.capture(builder_.ternary(Arithmetic::clamp, wanted, constant_operand(1), constant_operand(kMostAround)));
   counted(count, [&](const Operand& counter) {
     const Operand share = builder_.binary(Arithmetic::divide, counter, count);
     turn_about(static_cast<int>(*stmt.axis),
