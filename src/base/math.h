@@ -1,6 +1,7 @@
 #pragma once
-// Elementary functions whose bits do not depend on the CPU. glibc's double functions take other code paths where the CPU
-// has fused multiply-add; these use only IEEE + - * / and sqrt, or glibc's float functions, which do not.
+// Elementary functions whose bits do not depend on the CPU. glibc's double functions, and of its float functions exp and
+// pow, take other code paths where the CPU has fused multiply-add. These use only IEEE + - * / and sqrt, and those float
+// functions that do not: log, asin, acos, atan, atan2 and erfc (over all floats the same with and without, glibc 2.36).
 
 #include <bit>
 #include <cmath>
@@ -53,6 +54,11 @@ inline float tangent(float x) {
   sin_cos(x, s, c);
   return s / c;
 }
+
+/// e^x, correctly rounded but for about one x in a million.
+float exponential(float x);
+/// base^exponent, as exact; special values as those of C's pow.
+float power(float base, float exponent);
 
 /// The x for which a standard normal variable is below x with probability p, 0 < p < 1 (Acklam's rational
 /// approximation, relative error below 1.2e-9 before rounding of the logarithm).

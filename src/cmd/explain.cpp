@@ -6,7 +6,7 @@
 #include "cmd/attributes.h"
 #include "cmd/text_table.h"
 #include "cmd/verbs.h"
-#include "derivation/natural_log.h"
+#include "base/natural_log.h"
 #include "io/mesh_import.h"
 
 namespace espalier {
@@ -116,7 +116,7 @@ std::string remarks(const GrammarReport& report, const ExplainRequest& request) 
                         number(100.0 * static_cast<double>(count) / request.samples));
   };
   share(s.open, "reached the budget of 10000 genes: the rest of them stays open");
-  share(s.thinned, "reached the budget of details: theirs are thinned out");
+  share(s.thinned, "reached a budget of parts, loops or copies: parts of them are missing");
   share(s.dropped, "lost parts, because a size was negative or not finite");
   share(s.bare, "show nothing");
   std::vector<std::string> counts;

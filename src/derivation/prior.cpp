@@ -1,7 +1,7 @@
 #include <limits>
 
 #include "derivation/chances.h"
-#include "derivation/natural_log.h"
+#include "base/natural_log.h"
 #include "derivation/sample.h"
 #include "derivation/sweep.h"
 

@@ -17,7 +17,7 @@ inline float apply_unary(Arithmetic op, float a) {
     case Arithmetic::ceil: return std::ceil(a);
     case Arithmetic::round: return std::floor(a + 0.5f);
     case Arithmetic::sqrt: return std::sqrt(a);
-    case Arithmetic::exp: return std::exp(a);
+    case Arithmetic::exp: return exponential(a);
     case Arithmetic::log: return std::log(a);
     case Arithmetic::sin: return sine(a);
     case Arithmetic::cos: return cosine(a);
@@ -36,7 +36,7 @@ inline float apply_binary(Arithmetic op, float a, float b) {
     case Arithmetic::multiply: return a * b;
     case Arithmetic::divide: return a / b;
     case Arithmetic::modulo: return a - b * std::floor(a / b);
-    case Arithmetic::power: return std::pow(a, b);
+    case Arithmetic::power: return power(a, b);
     case Arithmetic::minimum: return std::min(a, b);
     case Arithmetic::maximum: return std::max(a, b);
     case Arithmetic::atan2: return std::atan2(a, b);

@@ -99,7 +99,7 @@ void BodyCompiler::turning(const ast::Stmt& stmt, const Operand& first_in, const
 void BodyCompiler::around(const ast::Stmt& stmt, const NameScope& scope) {
   const Operand wanted = builder_.unary(Arithmetic::round, expressions_.scalar(*stmt.exprs[0], scope));
   const Operand count =
-      builder_.capture(builder_.ternary(Arithmetic::clamp, wanted, constant_operand(1), constant_operand(kMostTurns)));
+      builder_.capture(builder_.ternary(Arithmetic::clamp, wanted, constant_operand(1), constant_operand(kMostAround)));
   counted(count, [&](const Operand& counter) {
     const Operand share = builder_.binary(Arithmetic::divide, counter, count);
     turn_about(static_cast<int>(*stmt.axis),
@@ -177,10 +177,7 @@ EdgeId BodyCompiler::edge_of(const ast::Stmt& stmt, const NameScope& scope) {
   if (stmt.probability) edge.probability = compile_depth_value(*stmt.probability, scope, tables_);
   edge.name = fmt::format("{}/{}", decl_.name, stmt.target->name);
   edge.span = stmt.span;
-  const auto same = std::count_if(tables_.graph.edges.begin(), tables_.graph.edges.end(), [&](const Edge& e) {
-    return e.name == edge.name || e.name.rfind(edge.name + "#", 0) == 0;
-  });
-  if (same > 0) edge.name += fmt::format("#{}", same + 1);
+  if (const std::size_t nth = ++tables_.edges_of_name[edge.name]; nth > 1) edge.name += fmt::format("#{}", nth);
   tables_.graph.edges.push_back(std::move(edge));
   return it->second;
 }

@@ -60,6 +60,7 @@ class GraphTables {
   Diagnostics& diagnostics;
   std::map<std::string, std::uint16_t> rule_ids;
   std::map<std::string, std::uint16_t> detail_ids;
+  std::map<std::string, std::size_t> edges_of_name;  // by "Rule/Child": how many so far
   std::vector<TextureValue> textures;  // of the expressions compiled so far
   NameScope globals;  // consts, attrs, meshes, materials, then the draws and lets of the start rule
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/core.h>
 
@@ -90,11 +91,10 @@ SourceSpan Cursor::span(std::size_t begin, std::size_t length) const {
   SourceSpan result = place_;
   result.offset += static_cast<std::uint32_t>(begin);
   result.length = static_cast<std::uint32_t>(length);
-  const std::string_view before = text_.substr(0, begin);
-  const std::size_t line = before.rfind('\n');
-  result.line += static_cast<std::uint32_t>(std::count(before.begin(), before.end(), '\n'));
-  result.column = line == std::string_view::npos ? place_.column + static_cast<std::uint32_t>(begin)
-                                                 : static_cast<std::uint32_t>(begin - line);
+  const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(), begin);
+  result.line += static_cast<std::uint32_t>(next - line_starts_.begin());
+  result.column = next == line_starts_.begin() ? place_.column + static_cast<std::uint32_t>(begin)
+                                               : static_cast<std::uint32_t>(begin - *std::prev(next) + 1);
   return result;
 }
 
@@ -258,6 +258,8 @@ std::vector<Module> Cursor::modules() {
   std::vector<SourceSpan> open;
   while (!at_end() && peek() != ':') {
     result.push_back(module());
+    if (result.size() > kMostModules)
+      fail("L0103", result.back().span, fmt::format("at most {} modules in all successors", kMostModules));
     if (result.back().symbol == "[") open.push_back(result.back().span);
     if (static_cast<int>(open.size()) > kDeepestBrackets)
       fail("L0103", open.back(), fmt::format("brackets nest at most {} deep", kDeepestBrackets));

@@ -18,7 +18,10 @@ class Cursor {
  public:
   /// `place`: where `text` begins; it may span lines.
   Cursor(std::string_view text, const SourceSpan& place, Diagnostics& diagnostics)
-      : text_(text), place_(place), diagnostics_(diagnostics) {}
+      : text_(text), place_(place), diagnostics_(diagnostics) {
+    for (std::size_t i = 0; i < text.size(); ++i)
+      if (text[i] == '\n') line_starts_.push_back(i + 1);
+  }
 
   void skip_blanks();
   bool at_end() { return skip_blanks(), at_ == text_.size(); }
@@ -50,6 +53,7 @@ class Cursor {
 
   std::string_view text_;
   SourceSpan place_;
+  std::vector<std::size_t> line_starts_;  // behind the line ends in the text
   Diagnostics& diagnostics_;
   std::size_t at_ = 0;
   int level_ = 0;

@@ -92,6 +92,8 @@ std::optional<Leap> Steps::leap_of(const std::vector<Module>& modules, const Val
   Leap result;
   int depth = 0;
   for (const Module& m : modules) {
+    if (leap_budget_ == 0) return std::nullopt;
+    --leap_budget_;
     if (m.symbol == "[") ++depth;
     if (m.symbol == "]") --depth;
     if (depth > 0 || m.symbol == "]") continue;

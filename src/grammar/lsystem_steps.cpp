@@ -7,7 +7,6 @@ namespace espalier::lsystem {
 namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-constexpr std::size_t kMostDistinctModules = 20'000;
 
 }  // namespace
 
@@ -123,7 +122,7 @@ void Steps::follow() {
   for (const Module& m : system_.axiom)
     if (const std::size_t i = index_of(m); i != kNone)
       if (const auto args = arguments(m, values(species_[i], {}))) modules_[0][i].insert(*args);
-  std::size_t budget = kMostDistinctModules;
+  Budget budget;
   for (int step = 0; step < system_.iterations; ++step) {
     followed_ = follow_step(step, budget);
     if (!followed_) break;
@@ -139,13 +138,14 @@ void Steps::follow() {
 }
 
 /// False where there are too many distinct modules, or values that are not finite.
-bool Steps::follow_step(int step, std::size_t& budget) {
+bool Steps::follow_step(int step, Budget& budget) {
   const std::size_t k = static_cast<std::size_t>(step);
   for (std::size_t i = 0; i < species_.size(); ++i) {
     Species& s = species_[i];
     bool first = true;
     for (const Arguments& args : modules_[k][i]) {
-      if (budget-- == 0) return budget = 0, false;
+      if (budget.modules == 0) return false;
+      --budget.modules;
       const auto match = matching(s, args);
       if (!match) return false;
       if (first) s.applied[k] = *match;
@@ -155,6 +155,8 @@ bool Steps::follow_step(int step, std::size_t& budget) {
       for (const std::size_t p : *match)
         for (const Module& m : system_.productions[p].successor)
           if (const std::size_t next = index_of(m); next != kNone) {
+            if (budget.successors == 0) return false;
+            --budget.successors;
             const auto next_args = arguments(m, values(s, args));
             if (!next_args) return false;
             modules_[k + 1][next].insert(*next_args);

@@ -54,12 +54,17 @@ class Steps {
 
  private:
   using Arguments = std::vector<double>;
+  static constexpr std::size_t kMostWork = 2'000'000;
+  /// Of following steps: distinct modules, and modules that they are replaced by.
+  struct Budget {
+    std::size_t modules = 20'000, successors = kMostWork;
+  };
   using Key = std::pair<std::size_t, Arguments>;  // species
 
   void collect_species();
   void find_growth(Species& species) const;
   void follow();
-  bool follow_step(int step, std::size_t& budget);
+  bool follow_step(int step, Budget& budget);
   void spread_details();
   std::size_t index_of(const Module& module) const;
   Values values(const Species& species, const Arguments& arguments) const;
@@ -77,6 +82,7 @@ class Steps {
   std::vector<std::vector<std::set<Arguments>>> modules_;  // by step, by species
   bool followed_ = true;  // to the last step
   mutable std::map<std::pair<Key, int>, std::optional<Leap>> leaps_;
+  mutable std::size_t leap_budget_ = kMostWork;  // modules that may still be followed to where they end
 };
 
 }  // namespace espalier::lsystem

@@ -96,7 +96,8 @@ enum class OpCode : std::uint8_t {
 };
 
 /// A loop of a detail or an `around` ends after this many turns, whatever its bounds say.
-inline constexpr int kMostTurns = 1024;
+inline constexpr int kMostTurns = 100'000;  // of one loop
+inline constexpr int kMostAround = 1024;    // copies of one `around`
 
 inline constexpr std::uint8_t kEmitAsIs = 1, kEmitProxy = 2, kAimAt = 1, kLast = 1;
 

@@ -29,7 +29,7 @@ double apply_function(std::string_view name, double a, double b, double c) {
   if (name == "ceil") return std::ceil(a);
   if (name == "round") return std::floor(a + 0.5);
   if (name == "sqrt") return std::sqrt(a);
-  if (name == "exp") return std::exp(x);
+  if (name == "exp") return exponential(x);
   if (name == "log") return std::log(x);
   if (name == "sin") return sine(x);
   if (name == "cos") return cosine(x);
@@ -55,7 +55,7 @@ double apply_operator(Operator op, double a, double b) {
     case Operator::multiply: return a * b;
     case Operator::divide: return a / b;
     case Operator::modulo: return a - b * std::floor(a / b);
-    case Operator::power: return std::pow(static_cast<float>(a), static_cast<float>(b));
+    case Operator::power: return power(static_cast<float>(a), static_cast<float>(b));
     case Operator::less: return a < b;
     case Operator::less_equal: return a <= b;
     case Operator::greater: return a > b;

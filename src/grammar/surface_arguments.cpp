@@ -1,10 +1,10 @@
 #include "grammar/surface_arguments.h"
 
 #include <array>
-#include <cmath>
 #include <optional>
 
 #include "base/check.h"
+#include "base/math.h"
 
 namespace espalier {
 namespace {
@@ -89,7 +89,7 @@ int hex_digit(char c) {
 
 float linear_light(int byte) {
   const float s = static_cast<float>(byte) / 255;
-  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
+  return s <= 0.04045f ? s / 12.92f : power((s + 0.055f) / 1.055f, 2.4f);
 }
 
 TextureKind texture_named(std::string_view builtin) {

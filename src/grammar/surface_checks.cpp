@@ -1,5 +1,7 @@
 // Arguments of surfaces and textures, where they are constant.
 
+#include <cmath>
+
 #include <fmt/core.h>
 
 #include "grammar/static_checks.h"
@@ -37,7 +39,7 @@ void StaticChecks::surface(const ast::Expr& expr, const StaticScope& scope) {
       error(code, place, "an image needs a file name, such as \"bricks.png\"");
     } else if (number) {
       const double x = given->scalar();
-      const bool whole = !argument->whole || x == static_cast<double>(static_cast<long long>(x));
+      const bool whole = !argument->whole || x == std::floor(x);
       if (!(x >= argument->low && (argument->unbounded || x <= argument->high) && whole))
         error(code, place, fmt::format("the {} of {} must be {}, got {}", argument->name, of, range_of(*argument),
                                        describe(*given)));

@@ -26,6 +26,7 @@ void Expander::expand(const Derivation& derivation, ExpandTo phase, Model& model
   machine.details_wanted = phase == ExpandTo::full && graph_->uses_details;
   machine.parts_left = limits_.most_parts;
   machine.turns_left = limits_.most_turns;
+  machine.copies_left = limits_.most_copies;
   const auto stride = static_cast<std::uint32_t>(graph_->counted_rules.size() + graph_->registers.parameters);
   machine.children.reset(stride);
   machine.calls.reset(stride);
@@ -36,7 +37,7 @@ void Expander::expand(const Derivation& derivation, ExpandTo phase, Model& model
   root.state.key = scatter(derivation.detail_seed);
   for (std::size_t i = 0; i < stride; ++i) counts[i] = 0;
 
-  // Rules: depth first, the last slot of a gene before its first. The budget thins details, never the tree.
+  // Rules: depth first, the last slot of a gene before its first. The budget of parts thins details, never the tree.
   while (!machine.children.empty()) {
     machine.take(machine.children, machine.children.size() - 1);
     machine.children.pop_back();

@@ -17,7 +17,8 @@ enum class ExpandTo : std::uint8_t {
 
 struct ExpandLimits {
   std::uint32_t most_parts = 1'000'000;  // emits and detail calls; then details stop and Model::truncated is set
-  std::uint32_t most_turns = 16'000'000;  // of all loops of details, likewise
+  std::uint32_t most_turns = 16'000'000;  // of all loops, likewise
+  std::uint32_t most_copies = 4'000'000;  // genes shown, copies of `mirror` and others included; more are left out
   /// Whether recipes are followed. Where nobody looks at materials, the middle one of each will do and costs nothing.
   bool make_materials = true;
 };

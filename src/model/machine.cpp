@@ -83,31 +83,16 @@ float Machine::high_bits(const Op& op, std::uint32_t component) const {
   return static_cast<float>(static_cast<std::int32_t>(q >> 8));
 }
 
-bool Machine::spend_part() {
-  if (parts_left == 0) {
-    model->truncated = true;
-    return false;
-  }
-  --parts_left;
-  return true;
-}
-
-bool Machine::take_turn(float counter) {
-  if (counter >= kMostTurns || turns_left == 0) model->truncated = true;
-  if (model->truncated) return false;
-  --turns_left;
-  return true;
-}
-
 void Machine::emit(const Op& op, Layer layer) {
   const State& s = current_.state;
   Lanes column[4] = {s.axis[0], s.axis[1], s.axis[2], s.origin};
   if (!(op.flags & kEmitAsIs))
     for (int i = 0; i < 3; ++i) column[i] *= registers_[i];
-  // The sum is finite just when all terms are (or so large that they might as well not be).
+  // The sum is finite just when all terms are (or so large that they might as well not be); so with `top`.
   const Lanes sum = (column[0] + column[1]) + (column[2] + column[3]);
   const Lanes zero = sum - sum;
-  if (broken_scope() || !(zero[0] + zero[1] + zero[2] == 0)) {
+  const float top = value(op.y);
+  if (broken_scope() || !(zero[0] + zero[1] + zero[2] + (top - top) == 0)) {
     ++model->dropped;
     return;
   }
@@ -116,7 +101,7 @@ void Machine::emit(const Op& op, Layer layer) {
   static_assert(sizeof(Frame) == 12 * sizeof(float) && offsetof(Instance, top) == sizeof(Frame));
   char* const frame = reinterpret_cast<char*>(&instance);
   for (int i = 0; i < 4; ++i) std::memcpy(frame + 12 * i, &column[i], sizeof(Lanes));  // each overwrites a fourth lane
-  instance.top = value(op.y);
+  instance.top = top;
   instance.mesh = static_cast<std::uint16_t>(value(op.x));
   instance.material = static_cast<std::uint16_t>(s.material);
   instance.gene = current_.at.gene;
@@ -153,6 +138,11 @@ void Machine::run_slot(const Program& program, const Op& op, const Derivation& d
     ++model->dropped;
     return;
   }
+  if (copies_left == 0) {
+    model->truncated = true;
+    return;
+  }
+  --copies_left;
   float* floats;
   Pending& child = children.push(floats);
   child.state = current_.state;
@@ -167,6 +157,7 @@ void Machine::run_slot(const Program& program, const Op& op, const Derivation& d
 
 // A gene that ends with a slot hands its state to the child there: nothing is queued, nothing copied.
 void Machine::enter_child(const SlotCode& code, const Op& op) {
+  --copies_left;
   if (details_wanted) current_.state.key = key_below(current_.state.key, op.b);
   current_.at = child_at_[op.a];
   ++current_.depth;
@@ -233,7 +224,8 @@ bool Machine::run(const Program& program, const Derivation* derivation) {
         break;
       case OpCode::paint: state.material = value(op.x); break;
       case OpCode::slot:
-        if (op.flags & kLast && derivation->slots[current_.at.slot + op.a] == SlotState::filled && !broken_scope()) {
+        if (op.flags & kLast && derivation->slots[current_.at.slot + op.a] == SlotState::filled && !broken_scope() &&
+            copies_left > 0) {
           enter_child(program.slots[op.dst], op);
           return true;
         }
@@ -256,7 +248,7 @@ bool Machine::run(const Program& program, const Derivation* derivation) {
       case OpCode::draw_normal: registers_[op.dst] = draw_normal(op, quantile<kGene>(op, 0)); break;
       case OpCode::draw_loguniform: {
         const float low = value(op.x);
-        registers_[op.dst] = low * std::pow(value(op.y) / low, quantile<kGene>(op, 0));
+        registers_[op.dst] = low * power(value(op.y) / low, quantile<kGene>(op, 0));
         break;
       }
       case OpCode::draw_integer: {
@@ -281,7 +273,7 @@ bool Machine::run(const Program& program, const Derivation* derivation) {
         registers_[op.dst] = apply_ternary(op.arithmetic, value(op.x), value(op.y), value(op.z));
         break;
       case OpCode::mix_material: {
-        const float t = apply_ternary(Arithmetic::clamp, value(op.x), 0, 1);
+        const float given = value(op.x), t = given > 0 ? std::min(given, 1.0f) : 0.0f;  // 0 for what is no number
         registers_[op.dst] = static_cast<float>(op.a) + std::floor(16 * t + 0.5f);
         break;
       }

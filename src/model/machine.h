@@ -43,6 +43,7 @@ class Machine {
   bool materials_wanted = true;
   std::uint32_t parts_left = 0;  // emits and calls still allowed; at 0 the model is truncated
   std::uint32_t turns_left = 0;  // turns of loops, likewise
+  std::uint32_t copies_left = 0;  // children still shown, likewise: mirrors within mirrors double at every level
   std::unique_ptr<MaterialMaker> materials;  // apart: it is large, and few grammars need it
 
  private:
@@ -80,8 +81,20 @@ class Machine {
   void run_slot(const Program& program, const Op& op, const Derivation& derivation);
   void enter_child(const SlotCode& code, const Op& op);
   void call(const Program& program, std::uint16_t call_site);
-  bool spend_part();
-  bool take_turn(float counter);
+  bool spend_part() {
+    if (parts_left == 0) {
+      model->truncated = true;
+      return false;
+    }
+    --parts_left;
+    return true;
+  }
+  bool take_turn(float counter) {
+    if (counter >= kMostTurns || turns_left == 0) model->truncated = true;
+    if (model->truncated) return false;
+    --turns_left;
+    return true;
+  }
 
   const GeneratorGraph& graph_;
   std::uint32_t counted_;     // number of counted rules

@@ -46,7 +46,7 @@ struct Model {
   std::vector<Bone> bones;
   std::vector<MadeMaterial> materials;  // at most kMostMaterials, in the order in which they came up
   std::uint32_t dropped = 0;  // subtrees or emits left out because a frame was not finite or a size negative
-  bool truncated = false;     // the detail budget ran out
+  bool truncated = false;     // a budget ran out (ExpandLimits): parts are missing
   std::uint32_t plain_paints = 0;  // paints that got the middle of their recipe since there were materials enough
 
   void clear() {

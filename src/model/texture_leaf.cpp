@@ -56,7 +56,7 @@ class LeafShape {
   float width() const { return width_; }
 
  private:
-  float bulge(float t) const { return std::pow(t, 0.55f) * std::pow(1 - t, fall_); }
+  float bulge(float t) const { return power(t, 0.55f) * power(1 - t, fall_); }
 
   float width_, fall_, teeth_, lobes_, veins_;
   float scale_ = 1;

@@ -41,7 +41,7 @@ struct ExportRequest {
 };
 struct ExportReport {
   AdaptedGenes adapted;
-  bool truncated = false;  // the budget of details ran out: the model is not whole
+  bool truncated = false;  // a budget of the model ran out: it is not whole
 };
 /// Writes the model of a derivation. Throws Error.
 ExportReport export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor);

@@ -13,9 +13,10 @@
 
 namespace espalier {
 
-/// What to say of models whose details did not fit (Model::truncated).
+/// What to say of models that did not fit (Model::truncated).
 inline constexpr const char* kTruncated =
-    "truncated: the details ended at 1 000 000 parts and calls, or 16 000 000 turns of loops; the rest is left out";
+    "truncated: a model has at most 1 000 000 parts and calls of details, 4 000 000 copies of genes, 16 000 000 turns of "
+    "loops and 100 000 of one; the rest is left out";
 
 class ModelFiles {
  public:

@@ -20,7 +20,7 @@ namespace espalier {
 namespace {
 
 constexpr std::uint32_t kMostGenes = 60;
-constexpr ExpandLimits kLimits{.most_parts = 500, .most_turns = 2000};
+constexpr ExpandLimits kLimits{.most_parts = 500, .most_turns = 2000, .most_copies = 20'000};
 
 void expand_all(const GeneratorGraph& graph, const Derivation& derivation) {
   Expander expander(graph, kLimits), other(graph, kLimits);

@@ -103,6 +103,12 @@ TEST(LSystemImport, RefusesWhatCannotBeFollowed) {
   EXPECT_THAT(faults("axiom: A\nA -> F : 0 - 1\nA -> FF : 2\n"), ElementsAre("L0206 2:1"));
 }
 
+// Where a module ends is found by following it: here through 2^40 modules, which has to be given up.
+TEST(LSystemImport, GivesUpOnWhatGrowsTooFast) {
+  EXPECT_THAT(faults("axiom: AF\niterations: 40\nA -> B(1)\nB(x) -> B(x + 1)B(2 * x)\n"), ElementsAre("L0203 1:8"));
+  EXPECT_THAT(faults("axiom: " + std::string(250'000, 'F') + "\n"), ElementsAre("L0103 1:20008"));
+}
+
 TEST(LSystemImport, PointsAtMistakes) {
   EXPECT_THAT(faults(""), ElementsAre("L0106 0:0"));
   EXPECT_THAT(faults("axiom: F[+F\n"), ElementsAre("L0101 1:9"));

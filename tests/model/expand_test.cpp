@@ -219,7 +219,7 @@ TEST(Expand, SplitSharesOutTheScope) {
 TEST(Expand, TooManyTilesAreReported) {
   const auto graph = compile("grammar s 1\nstart S\nrule S { size 1e6  split x { repeat 1: { emit box } } }\n");
   const Model model = expand(*graph, sampled(*graph, 0));
-  EXPECT_EQ(model.instances.size(), 1024u);
+  EXPECT_EQ(model.instances.size(), 100'000u);
   EXPECT_TRUE(model.truncated);
 }
 
@@ -424,6 +424,44 @@ rule S { detail D(1000) }
 detail D(n) { for i in 1..n { for j in 1..n { for k in 1..n { move x 1 } } } }
 )");
   EXPECT_TRUE(expand(*graph, sampled(*graph, 0), ExpandTo::full).truncated);
+}
+
+TEST(Expand, LoopsOfDetailsHaveManyTurns) {
+  const auto graph = compile("grammar l 1\nstart S\nrule S { detail D(3000) }\n"
+                             "detail D(n) { for i in 1..n { move x 2  emit box } }\n");
+  const Model model = expand(*graph, sampled(*graph, 0), ExpandTo::full);
+  EXPECT_EQ(model.instances.size(), 3000u);
+  EXPECT_FALSE(model.truncated);
+}
+
+// Every mirror doubles what stands below it: 2^40 copies of the last gene.
+TEST(Expand, MirrorsWithinMirrorsAreCut) {
+  for (const char* last : {"", "move y 1"}) {  // a child that takes its parent's place, and one that waits
+    const auto graph = compile(std::string("grammar m 1\nstart S\nrule S { spawn A }\n"
+                                           "rule A when depth < 40 { move x 1  bone (0, 0, 0) -> (0, 1, 0)  "
+                                           "mirror x { spawn A }  ") + last + " }\n");
+    const Model model = expand(*graph, sampled(*graph, 0), ExpandTo::bones, {.most_copies = 5000});
+    EXPECT_TRUE(model.truncated);
+    EXPECT_EQ(model.bones.size(), 5000u);
+  }
+}
+
+TEST(Expand, NumbersThatAreNoneStayOutOfModels) {
+  const auto graph = compile(R"(grammar n 1
+material red = surface("#ff0000")
+material blue = surface("#0000ff")
+start S
+rule S {
+  w ~ uniform(-2, -1)
+  emit cone(top: sqrt(w))
+  paint mix(red, blue, sqrt(w))  emit box
+}
+)");
+  const Model model = expand(*graph, sampled(*graph, 0));
+  ASSERT_EQ(model.instances.size(), 1u);
+  EXPECT_EQ(model.dropped, 1u);
+  ASSERT_LT(model.instances[0].material, graph->materials.size());
+  EXPECT_EQ(graph->materials[model.instances[0].material].color, Vec3(1, 0, 0));
 }
 
 TEST(Expand, BrokenNumbersEmitNothingAndSaySo) {

@@ -1,4 +1,4 @@
-#include "derivation/natural_log.h"
+#include "base/natural_log.h"
 
 #include <cmath>
 
