@@ -1,4 +1,5 @@
-// Expansion: time per gene, against the must of 60 ns and the aim of 20 ns; and a derivation of 50 000 genes (must: 3 ms).
+// Expansion: time per gene, against the must of 60 ns and the aim of 20 ns; and a derivation of 50 000 genes (must: 3
+// ms).
 
 #include <benchmark/benchmark.h>
 
@@ -52,8 +53,8 @@ BENCHMARK_CAPTURE(expand_per_gene, city, "city.esp")->Arg(50)->Arg(201);
 BENCHMARK_CAPTURE(expand_per_gene, city_separate, "city-separate.esp")->Arg(50)->Arg(101);
 BENCHMARK_CAPTURE(expand_per_gene, city_filling, "city-filling.esp")->Arg(50)->Arg(500);
 
-// GenTree, all details of one gene: three branches, eight levels, 9841 spans (must: 5 ms for 10 000). And the largest tree
-// that its genes allow, which ends by the limits of expansion.
+// GenTree, all details of one gene: three branches, eight levels, 9841 spans (must: 5 ms for 10 000). And the largest
+// tree that its genes allow, which ends by the limits of expansion.
 void expand_gentree(benchmark::State& state, int branches, int levels) {
   const auto graph = load("gentree.esp", {{"leafy", "false"}});
   Derivation derivation = grown(*graph, 1);

@@ -15,10 +15,10 @@ struct Adapted {
   std::uint32_t grown = 0;    // genes that came into slots that are required now
 };
 
-/// `derivation` fits the graph but for guards, probabilities and weights (see find_fault). Slots whose guard fails become
-/// absent and lose what stood there; optional slots whose guard holds again become empty, required ones are grown, their
-/// draws being keyed by the detail seed. Filled slots and variants that have probability 0 now are cut at the nearest
-/// optional slot above. Nothing where there is none, or where required growth has no end.
+/// `derivation` fits the graph but for guards, probabilities and weights (see find_fault). Slots whose guard fails
+/// become absent and lose what stood there; optional slots whose guard holds again become empty, required ones are
+/// grown, their draws being keyed by the detail seed. Filled slots and variants that have probability 0 now are cut at
+/// the nearest optional slot above. Nothing where there is none, or where required growth has no end.
 std::optional<Adapted> adapt(const GeneratorGraph& graph, const Derivation& derivation);
 
 }  // namespace espalier
