@@ -12,8 +12,7 @@ namespace {
 
 class Adapter {
  public:
-  Adapter(const GeneratorGraph& graph, const Derivation& from)
-      : graph_(graph), from_(from), keeps_(from.size()) {}
+  Adapter(const GeneratorGraph& graph, const Derivation& from) : graph_(graph), from_(from) { keeps_.resize(from.size()); }
 
   /// Marks genes that cannot stay, children before parents: what needs such a child cannot stay either.
   bool find_keepers() {
