@@ -15,8 +15,8 @@ struct SourceText {
   std::string name, text;
 };
 
-/// A place in a source text: byte offset and length, and the 1-based line and column (in bytes) of its start. Line 0: no
-/// place. `file` tells the texts of one grammar apart: 0 is the grammar itself, others are imported.
+/// A place in a source text: byte offset and length, and the 1-based line and column (in bytes) of its start. Line 0:
+/// no place. `file` tells the texts of one grammar apart: 0 is the grammar itself, others are imported.
 struct SourceSpan {
   std::uint32_t offset = 0;
   std::uint32_t length = 0;

@@ -1,6 +1,7 @@
 #pragma once
-// Error: bad input that ends what was asked for (a file, a setting, a full disk). The message names the file, the place,
-// the rule and the value; the command line prints it and exits with 2. Bugs use CHECK, expected failures return values.
+// Error: bad input that ends what was asked for (a file, a setting, a full disk). The message names the file, the
+// place, the rule and the value; the command line prints it and exits with 2. Bugs use CHECK, expected failures return
+// values.
 
 #include <stdexcept>
 #include <string>

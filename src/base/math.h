@@ -1,7 +1,8 @@
 #pragma once
-// Elementary functions whose bits do not depend on the CPU. glibc's double functions, and of its float functions exp and
-// pow, take other code paths where the CPU has fused multiply-add. These use only IEEE + - * / and sqrt, and those float
-// functions that do not: log, asin, acos, atan, atan2 and erfc (over all floats the same with and without, glibc 2.36).
+// Elementary functions whose bits do not depend on the CPU. glibc's double functions, and of its float functions exp
+// and pow, take other code paths where the CPU has fused multiply-add. These use only IEEE + - * / and sqrt, and those
+// float functions that do not: log, asin, acos, atan, atan2 and erfc (over all floats the same with and without, glibc
+// 2.36).
 
 #include <bit>
 #include <cmath>

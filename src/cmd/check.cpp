@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/counted.h"
 #include "cmd/attributes.h"
 #include "cmd/verbs.h"
 #include "io/mesh_import.h"
@@ -32,9 +33,11 @@ void print_json(const std::string& file, const CompileResult& result) {
 void print_summary(const std::string& file, const GeneratorGraph& graph) {
   std::size_t draws = 0, variants = 0;
   for (const Rule& rule : graph.rules) draws += rule.draws.size(), variants += rule.variants.size();
-  fmt::print("{}: {} is well-formed: {} rules with {} variants, {} edges, {} draws, {} details, {} meshes\n", file,
-             graph.name, graph.rules.size(), variants, graph.edges.size() - 1, draws, graph.details.size(),
-             graph.meshes.size());
+  const std::string meshes = fmt::format("{} mesh{}", graph.meshes.size(), graph.meshes.size() == 1 ? "" : "es");
+  fmt::print("{}: {} is well-formed: {} with {}, {}, {}, {}, {}\n", file, graph.name,
+             counted(graph.rules.size(), "rule"), counted(variants, "variant"),
+             counted(graph.edges.size() - 1, "edge"), counted(draws, "draw"),
+             counted(graph.details.size(), "detail"), meshes);
 }
 
 }  // namespace

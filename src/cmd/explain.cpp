@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.h"
+#include "base/natural_log.h"
 #include "cmd/attributes.h"
 #include "cmd/text_table.h"
 #include "cmd/verbs.h"
-#include "base/natural_log.h"
 #include "io/mesh_import.h"
 
 namespace espalier {
@@ -24,10 +25,6 @@ std::string number(double value) {
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();
   return text;
-}
-
-std::string counted(std::size_t count, const char* noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 std::string slots_of(const RuleReport& rule) {

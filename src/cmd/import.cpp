@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "cmd/verbs.h"
 #include "grammar/compiler.h"
@@ -53,7 +54,8 @@ int import_verb(const ImportOptions& options) {
     fmt::print("{}", *text);
   } else {
     write_file(out, *text);
-    fmt::print("{}: {} rules, {} details\n", out, compiled.graph->rules.size(), compiled.graph->details.size());
+    fmt::print("{}: {}, {}\n", out, counted(compiled.graph->rules.size(), "rule"),
+               counted(compiled.graph->details.size(), "detail"));
   }
   return kDone;
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.h"
 #include "cmd/attributes.h"
 #include "cmd/verbs.h"
 #include "io/mesh_import.h"
@@ -29,7 +30,8 @@ int sample_verb(const SampleOptions& options) {
   for (const std::string& warning : write_samples(request, out, source, *executor)) {
     fmt::print(stderr, "warning: {}\n", warning);
   }
-  fmt::print("wrote {} samples to {}\nwrote {}\n", options.count, out, (fs::path(out) / "samples.png").string());
+  fmt::print("wrote {} to {}\nwrote {}\n", counted(options.count, "sample"), out,
+             (fs::path(out) / "samples.png").string());
   return kDone;
 }
 

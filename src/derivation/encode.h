@@ -22,12 +22,12 @@ inline constexpr int kDerivationVersion = 1;
 /// The JSON text of a valid derivation of `graph`, one line per gene, ending with "}" and no line end.
 std::string encode(const GeneratorGraph& graph, const Derivation& derivation);
 
-/// How well a derivation must fit: it names this grammar and its hash; it is valid whatever it names; it is valid but for
-/// guards and probabilities, and wants to be adapted (adapt.h).
+/// How well a derivation must fit: it names this grammar and its hash; it is valid whatever it names; it is valid but
+/// for guards and probabilities, and wants to be adapted (adapt.h).
 enum class Fit : std::uint8_t { same_grammar, valid, adaptable };
 
-/// Reads what `encode` wrote. Throws Error (place, rule, value) for anything that does not fit this graph: malformed JSON,
-/// unknown version, member, rule or edge, wrong counts, broken guards or limits, more than `most_genes` genes.
+/// Reads what `encode` wrote. Throws Error (place, rule, value) for anything that does not fit this graph: malformed
+/// JSON, unknown version, member, rule or edge, wrong counts, broken guards or limits, more than `most_genes` genes.
 Derivation decode(const GeneratorGraph& graph, std::string_view json, std::uint32_t most_genes = 4'000'000,
                   Fit fit = Fit::same_grammar);
 

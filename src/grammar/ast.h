@@ -82,7 +82,8 @@ struct List {
   std::vector<ExprPtr> values;  // range: exactly first and last
 };
 
-/// One alternative of `choose` (weight: block), one part of `split` ([~|repeat] size: block) or of `comp` (face: block).
+/// One alternative of `choose` (weight: block), one part of `split` ([~|repeat] size: block) or of `comp` (face:
+/// block).
 struct Case {
   SourceSpan span;
   enum class Sizing : std::uint8_t { plain, floating, repeat } sizing = Sizing::plain;

@@ -41,7 +41,8 @@ struct CheckContext {
   /// Rules and details that a body refers to.
   std::vector<std::vector<std::size_t>> targets{};
   std::vector<char> used{};
-  /// Functions and materials: one more than the place, among the start rule's draws and lets, of the last one that it reads; 0: none.
+  /// Functions and materials: one more than the place, among the start rule's draws and lets, of the last one that it
+  /// reads; 0: none.
   std::vector<std::size_t> globals_read{};
   /// Functions and consts: whether an attr has a say in the value.
   std::vector<char> reads_attributes{};
@@ -102,7 +103,8 @@ void evaluate_values(CheckContext& context);
 void check_structure(CheckContext& context);
 /// Details that call themselves without end.
 void check_detail_recursion(CheckContext& context);
-/// Values of static expressions, and how large rules become once their loops are unrolled. Fills spawns, chosen, branches.
+/// Values of static expressions, and how large rules become once their loops are unrolled. Fills spawns, chosen,
+/// branches.
 void check_unrolled(CheckContext& context);
 /// What can never come to pass: warnings.
 void check_unreachable(CheckContext& context);

@@ -13,8 +13,8 @@
 namespace espalier {
 
 /// The grammar with what was found out about it, or nothing where there are errors, including those that `diagnostics`
-/// held before. `attribute_overrides`: values of attrs as text ("1.6", "25deg", "true") by name; faults in them are errors
-/// without a span (line 0).
+/// held before. `attribute_overrides`: values of attrs as text ("1.6", "25deg", "true") by name; faults in them are
+/// errors without a span (line 0).
 std::optional<CheckedGrammar> check(ast::Grammar grammar, const std::map<std::string, std::string>& attribute_overrides,
                                     Diagnostics& diagnostics);
 

@@ -34,7 +34,8 @@ class GraphTables {
     graph.materials.push_back({.name = "default"});
   }
 
-  /// A file that the text at `span` names, seen from the grammar's folder: paths are relative to the file that holds them.
+  /// A file that the text at `span` names, seen from the grammar's folder: paths are relative to the file that holds
+  /// them.
   std::string path_from_grammar(const std::string& path, const SourceSpan& span) const;
   std::uint16_t mesh_index(const MeshRef& mesh);
   std::uint16_t material_index(const Material& material);

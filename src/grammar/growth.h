@@ -1,6 +1,6 @@
 #pragma once
-// GrowthCheck: how many children the rules of a grammar are expected to have, and what follows: derivations that never end,
-// and derivations that become too large. Private to the checker.
+// GrowthCheck: how many children the rules of a grammar are expected to have, and what follows: derivations that never
+// end, and derivations that become too large. Private to the checker.
 
 #include <map>
 #include <set>

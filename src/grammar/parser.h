@@ -17,7 +17,8 @@ inline constexpr int kDeepestNesting = 200;
 /// More statements are refused (E0105).
 inline constexpr std::size_t kMostStatements = 200'000;
 
-/// The tree of `source`, imports unread; a best effort where `diagnostics` has errors afterwards. `file` goes into spans.
+/// The tree of `source`, imports unread; a best effort where `diagnostics` has errors afterwards. `file` goes into
+/// spans.
 ast::Grammar parse(std::string_view source, Diagnostics& diagnostics, std::uint16_t file = 0);
 
 /// One expression alone, such as the value of an attribute on a command line; null where there are errors.

@@ -145,7 +145,8 @@ void relocate(Program& program, Register local_base) {
     relocate(op.x.reg, local_base);
     relocate(op.y.reg, local_base);
     relocate(op.z.reg, local_base);
-    if (op.code == OpCode::turn || op.code == OpCode::resize_run || op.code == OpCode::aim || op.code == OpCode::bone) relocate(op.a, local_base);
+    if (op.code == OpCode::turn || op.code == OpCode::resize_run || op.code == OpCode::aim || op.code == OpCode::bone)
+      relocate(op.a, local_base);
     if (op.code == OpCode::bone) {
       auto to = static_cast<Register>(op.b);
       relocate(to, local_base);

@@ -16,7 +16,8 @@ struct ImageFile {
 class ImageSource {
  public:
   virtual ~ImageSource() = default;
-  /// Throws Error naming the file when it is missing, unreadable, neither PNG nor JPG, damaged or beyond Image's limits.
+  /// Throws Error naming the file when it is missing, unreadable, neither PNG nor JPG, damaged or beyond Image's
+  /// limits.
   virtual ImageFile load(const std::string& path) = 0;
 };
 

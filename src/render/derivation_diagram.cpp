@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/check.h"
+#include "base/counted.h"
 #include "derivation/sweep.h"
 #include "render/gene_text.h"
 #include "render/rule_palette.h"
@@ -132,8 +133,7 @@ class DerivationDrawing {
     GeneSweep sweep;
     sweep.begin(graph_, derivation_);
     while (sweep.next()) levels = std::max(levels, sweep.above().depth + 1);
-    return fmt::format("{} gene{} on {} level{}", derivation_.size(), derivation_.size() == 1 ? "" : "s", levels,
-                       levels == 1 ? "" : "s");
+    return counted(derivation_.size(), "gene") + " on " + counted(levels, "level");
   }
   const char* color_of(RuleId rule) const { return kRuleColors[rule % kRuleColors.size()]; }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.h"
 #include "render/generator_nodes.h"
 
 namespace espalier {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.h"
 #include "render/rule_palette.h"
 
 namespace espalier {
@@ -168,10 +169,6 @@ class Collector {
 };
 
 }  // namespace
-
-std::string counted(std::size_t count, const char* noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
 
 GeneratorNodes generator_nodes(const GeneratorGraph& graph, const GrammarOutline& outline) {
   return Collector(graph, outline).run();

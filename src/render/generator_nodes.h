@@ -43,7 +43,4 @@ struct GeneratorNodes {
 
 GeneratorNodes generator_nodes(const GeneratorGraph& graph, const GrammarOutline& outline);
 
-/// "1 rule", "2 rules"
-std::string counted(std::size_t count, const char* noun);
-
 }  // namespace espalier

@@ -15,8 +15,8 @@ namespace espalier {
 
 /// What to say of models that did not fit (Model::truncated).
 inline constexpr const char* kTruncated =
-    "truncated: a model has at most 1 000 000 parts and calls of details, 4 000 000 copies of genes, 16 000 000 turns of "
-    "loops and 100 000 of one; the rest is left out";
+    "truncated: a model has at most 1 000 000 parts and calls of details, 4 000 000 copies of genes, 16 000 000 turns "
+    "of loops and 100 000 of one; the rest is left out";
 
 class ModelFiles {
  public:

@@ -67,8 +67,8 @@ TEST(Power, IsTheNearestFloat) {
 }
 
 TEST(Power, HasThePlatformsSpecialValues) {
-  const float values[] = {0.0f, -0.0f, 1, -1, 0.5f, -0.5f, 2, -2, 3, -3, 2.5f, 1e38f, -1e38f, 1e-45f, INFINITY, -INFINITY,
-                          NAN,  16777216, 16777215};
+  const float values[] = {0.0f, -0.0f, 1, -1, 0.5f, -0.5f, 2, -2, 3, -3, 2.5f, 1e38f, -1e38f, 1e-45f, INFINITY,
+                          -INFINITY, NAN, 16777216, 16777215};
   for (const float base : values) {
     for (const float exponent : values) {
       const float expected = std::pow(base, exponent), got = power(base, exponent);

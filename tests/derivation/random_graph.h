@@ -49,9 +49,9 @@ inline void add_random_variants(GraphBuilder& b, RuleId rule, std::size_t draws,
   }
 }
 
-/// A graph in which anything may happen: guards by depth and by depth of a rule, limits, choices whose variants share and
-/// lack draws and slots, weights and probabilities by depth, required recursion that a guard ends. The start rule is
-/// never spawned.
+/// A graph in which anything may happen: guards by depth and by depth of a rule, limits, choices whose variants share
+/// and lack draws and slots, weights and probabilities by depth, required recursion that a guard ends. The start rule
+/// is never spawned.
 inline GeneratorGraph random_graph(RandomStream& random) {
   GraphBuilder b("random");
   const std::uint32_t rules = 2 + random.below(5);

@@ -2,17 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include "compiled.h"
+
 namespace espalier {
 namespace {
 
+using test::compiled;
+
 CompileResult compile(const std::string& text, std::map<std::string, std::string> attributes = {}) {
   return compile_grammar({"test.esp", text, std::move(attributes)});
-}
-
-std::shared_ptr<const GeneratorGraph> graph_of(const std::string& text) {
-  const CompileResult result = compile(text);
-  EXPECT_TRUE(result.graph) << render(result.diagnostics, "test.esp", text);
-  return result.graph;
 }
 
 std::string first_code(const std::string& text) {
@@ -37,7 +35,7 @@ rule B limit 3 { emit sphere }
 )";
 
 TEST(Compiler, OneEdgePerSpawnOfTheTextOneSlotPerTurn) {
-  const auto graph = graph_of(kBranching);
+  const auto graph = compiled(kBranching);
   const Rule& start = graph->rules[graph->start()];
   ASSERT_EQ(start.slots.size(), 4u);
   EXPECT_EQ(start.slots[0].edge, start.slots[2].edge);
@@ -50,7 +48,7 @@ TEST(Compiler, OneEdgePerSpawnOfTheTextOneSlotPerTurn) {
 }
 
 TEST(Compiler, OneVariantPerCombinationOfChoices) {
-  const auto graph = graph_of(kBranching);
+  const auto graph = compiled(kBranching);
   const Rule& rule = graph->rules[1];
   ASSERT_EQ(rule.variants.size(), 3u);
   EXPECT_EQ(rule.variants[0].name, "1");
@@ -72,7 +70,7 @@ TEST(Compiler, OneVariantPerCombinationOfChoices) {
 }
 
 TEST(Compiler, GuardsAndLimits) {
-  const auto graph = graph_of(kBranching);
+  const auto graph = compiled(kBranching);
   EXPECT_TRUE(graph->rules[1].guarded);
   EXPECT_NE(graph->rules[1].guard.at({3, {}}), 0);
   EXPECT_EQ(graph->rules[1].guard.at({4, {}}), 0);
@@ -90,7 +88,7 @@ TEST(Compiler, AttributesAreConstantsOfAGraph) {
 }
 
 TEST(Compiler, ArithmeticFoldsIntoOperands) {
-  const auto graph = graph_of("grammar f 1\nstart S\nrule S { a ~ uniform(0, 1)  move z 3 * (a / 2 - 1) + a  emit box }\n");
+  const auto graph = compiled("grammar f 1\nstart S\nrule S { a ~ uniform(0, 1)  move z 3 * (a / 2 - 1) + a  emit box }\n");
   const Program& program = graph->rules[0].variants[0].program;
   int arithmetic = 0;
   for (const Op& op : program.ops) {
@@ -103,7 +101,7 @@ TEST(Compiler, ArithmeticFoldsIntoOperands) {
 }
 
 TEST(Compiler, EqualMeshesAndMaterialsAreMadeOnce) {
-  const auto graph = graph_of(R"(grammar m 1
+  const auto graph = compiled(R"(grammar m 1
 material red = surface("#ff0000", roughness: 0.2)
 mesh a = cone(top: 0.5, sides: 8)
 mesh b = "bark.obj"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "compiled.h"
 #include "grammar/compiler.h"
 #include "grammar/surface_arguments.h"
 #include "grammar/words.h"
@@ -11,11 +12,7 @@
 namespace espalier {
 namespace {
 
-std::shared_ptr<const GeneratorGraph> graph_of(const std::string& text) {
-  const CompileResult result = compile_grammar({"test.esp", text, {}});
-  EXPECT_TRUE(result.graph) << render(result.diagnostics, "test.esp", text);
-  return result.graph;
-}
+using test::compiled;
 
 TEST(SurfaceArguments, AgreeWithTheWordsOfTheLanguage) {
   int seen = 0;
@@ -61,7 +58,7 @@ TEST(Recipe, UnpacksItsSteps) {
 }
 
 TEST(Surface, ConstantsAreMaterialsAndTheRestRecipes) {
-  const auto graph = graph_of(R"(grammar m 1
+  const auto graph = compiled(R"(grammar m 1
 material plain = surface("#ffffff", 0.5, cutout: 0.25, two_sided: true, tiles: 2,
                          texture: leaf_texture("#ff0000", width: 0.5, veins: 3))
 material varying = surface("#ffffff", roughness: wet, texture: noise_texture(cells: 1 + 8 * wet, seed: 3))

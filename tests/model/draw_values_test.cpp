@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "compiled.h"
 #include "derivation/sample.h"
 #include "derivation/sweep.h"
 #include "grammar/compiler.h"
@@ -11,11 +12,7 @@
 namespace espalier {
 namespace {
 
-std::shared_ptr<const GeneratorGraph> compiled(const std::string& text) {
-  const CompileResult result = compile_grammar({"test.esp", text, {}});
-  EXPECT_TRUE(result.graph) << render(result.diagnostics, "test.esp", text);
-  return result.graph;
-}
+using test::compiled;
 
 Vec3 scale_of(const Instance& i) {
   return {glm::length(i.model_from_mesh.basis[0]), glm::length(i.model_from_mesh.basis[1]),

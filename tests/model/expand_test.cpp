@@ -1,37 +1,25 @@
 #include "model/expand.h"
 
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "compiled.h"
 #include "derivation/moves.h"
 #include "derivation/sample.h"
 #include "grammar/checker.h"
 #include "grammar/compiler.h"
 #include "grammar/parser.h"
 #include "model/reference_expander.h"
+#include "shipped_grammar.h"
 
 namespace espalier {
 namespace {
 
-std::shared_ptr<const GeneratorGraph> compile(const std::string& text) {
-  const CompileResult result = compile_grammar({"test.esp", text, {}});
-  EXPECT_TRUE(result.graph) << render(result.diagnostics, "test.esp", text);
-  return result.graph;
-}
-
-std::string shipped(const std::string& name) {
-  std::ifstream file(std::string(ESPALIER_SOURCE_DIR) + "/grammars/" + name);
-  std::stringstream text;
-  text << file.rdbuf();
-  EXPECT_FALSE(text.str().empty()) << name;
-  return text.str();
-}
+using test::compiled;
 
 struct Parsed {
   CheckedGrammar checked;
@@ -42,7 +30,7 @@ Parsed parse_all(const std::string& text) {
   Diagnostics diagnostics;
   auto checked = check(parse(text, diagnostics), {}, diagnostics);
   EXPECT_TRUE(checked) << render(diagnostics, "test.esp", text);
-  return {std::move(*checked), compile(text)};
+  return {std::move(*checked), compiled(text)};
 }
 
 Derivation sampled(const GeneratorGraph& graph, std::uint32_t index) {
@@ -111,7 +99,7 @@ void hold_against_reference(const std::string& text, std::uint32_t samples) {
 TEST(Expand, AgreesWithTheReferenceOnShippedGrammars) {
   for (const char* name : {"spaceship.esp", "spaceship-2016.esp", "citadel.esp"}) {
     SCOPED_TRACE(name);
-    hold_against_reference(shipped(name), 200);
+    hold_against_reference(test::text_of(test::grammar_folder() / name), 200);
   }
 }
 
@@ -191,7 +179,7 @@ rule Cut(tile) when depth < 5 {
 
 // One gene whose split is cut from a scope of `size` along x; the lengths of the parts in order.
 std::vector<float> split_of(const std::string& size, const std::string& parts) {
-  const auto graph = compile("grammar s 1\nstart S\nrule S { size (" + size + ", 1, 1)  split x { " + parts + " } }\n");
+  const auto graph = compiled("grammar s 1\nstart S\nrule S { size (" + size + ", 1, 1)  split x { " + parts + " } }\n");
   std::vector<float> lengths;
   for (const Instance& i : expand(*graph, sampled(*graph, 0)).instances) lengths.push_back(i.model_from_mesh.basis[0].x);
   return lengths;
@@ -217,7 +205,7 @@ TEST(Expand, SplitSharesOutTheScope) {
 }
 
 TEST(Expand, TooManyTilesAreReported) {
-  const auto graph = compile("grammar s 1\nstart S\nrule S { size 1e6  split x { repeat 1: { emit box } } }\n");
+  const auto graph = compiled("grammar s 1\nstart S\nrule S { size 1e6  split x { repeat 1: { emit box } } }\n");
   const Model model = expand(*graph, sampled(*graph, 0));
   EXPECT_EQ(model.instances.size(), 100'000u);
   EXPECT_TRUE(model.truncated);
@@ -225,7 +213,7 @@ TEST(Expand, TooManyTilesAreReported) {
 
 TEST(Expand, FacesLookOutwardsInMirroredScopesToo) {
   for (const char* reflected : {"", "reflect x"}) {
-    const auto graph = compile(std::string("grammar c 1\nstart S\nrule S { size (2, 3, 4)  move (5, 6, 7)  ") +
+    const auto graph = compiled(std::string("grammar c 1\nstart S\nrule S { size (2, 3, 4)  move (5, 6, 7)  ") +
                                reflected + "  comp { all: { extrude 0.5  emit box } } }\n");
     const Model model = expand(*graph, sampled(*graph, 0));
     ASSERT_EQ(model.instances.size(), 6u);
@@ -240,7 +228,7 @@ TEST(Expand, FacesLookOutwardsInMirroredScopesToo) {
 
 // The three phases: bones of rules; their parts; details, with what open slots show instead of children.
 TEST(Expand, EachPhaseAddsToTheOneBefore) {
-  const auto graph = compile(R"(grammar p 1
+  const auto graph = compiled(R"(grammar p 1
 start S
 rule S { spawn A otherwise detail Bud }
 rule A {
@@ -276,7 +264,7 @@ detail Bud { emit sphere }
 }
 
 TEST(Expand, TilesShareGenesButNotDetails) {
-  const auto graph = compile(R"(grammar t 1
+  const auto graph = compiled(R"(grammar t 1
 start S
 rule S { size (3, 1, 1)  split x { repeat 1: { spawn Tile } } }
 rule Tile { k ~ uniform(0.1, 0.9)  resize y k  emit box  detail Look }
@@ -292,7 +280,7 @@ detail Look { j ~ uniform(0.1, 0.9)  resize y j  emit sphere }
 }
 
 TEST(Expand, HandComputedBody) {
-  const auto graph = compile(shipped("spaceship.esp"));
+  const auto graph = compiled(test::text_of(test::grammar_folder() / "spaceship.esp"));
   RandomStream random({1, Purpose::test});
   Derivation ship = seedling(*graph, random);
   close_open_slots(*graph, ship, random);
@@ -309,7 +297,7 @@ TEST(Expand, HandComputedBody) {
 }
 
 TEST(Expand, MirroredCopiesShareTheirGeneAndFlip) {
-  const auto graph = compile(R"(grammar m 1
+  const auto graph = compiled(R"(grammar m 1
 start S
 rule S { emit box  mirror x { move x 2  spawn W } }
 rule W { t ~ uniform(0, 1)  move y t  emit wedge  detail D }
@@ -339,7 +327,7 @@ detail D(w) {
 )";
 
 TEST(Expand, LayersTellProxiesFromDetails) {
-  const auto graph = compile(kDetailed);
+  const auto graph = compiled(kDetailed);
   const Derivation derivation = sampled(*graph, 3);
   const Model parts = expand(*graph, derivation), full = expand(*graph, derivation, ExpandTo::full);
   EXPECT_TRUE(graph->uses_proxies);
@@ -351,7 +339,7 @@ TEST(Expand, LayersTellProxiesFromDetails) {
 
 // What a subtree's details look like depends on its own genes, its address and the seed, not on its siblings.
 TEST(Expand, EditsElsewhereReshuffleNoDetail) {
-  const auto graph = compile(kDetailed);
+  const auto graph = compiled(kDetailed);
   Derivation before = sampled(*graph, 5);
   Derivation after = before;
   const auto last_gene = static_cast<std::uint32_t>(after.size() - 1);
@@ -369,7 +357,7 @@ TEST(Expand, EditsElsewhereReshuffleNoDetail) {
 }
 
 TEST(Expand, SiblingsHaveTheirOwnDetails) {
-  const auto graph = compile(kDetailed);
+  const auto graph = compiled(kDetailed);
   std::set<float> heights;
   int details = 0;
   for (const Instance& i : expand(*graph, sampled(*graph, 5), ExpandTo::full).instances)
@@ -379,7 +367,7 @@ TEST(Expand, SiblingsHaveTheirOwnDetails) {
 }
 
 TEST(Expand, OpenSlotsShowTheirOtherwise) {
-  const auto graph = compile(R"(grammar o 1
+  const auto graph = compiled(R"(grammar o 1
 start S
 rule S { maybe 0.5 spawn A else detail Empty otherwise detail Open  move x 5  maybe 0.5 spawn A else detail Empty }
 rule A { emit box }
@@ -399,7 +387,7 @@ detail Open { emit wedge }
 }
 
 TEST(Expand, BudgetsThinDetailsEvenly) {
-  const auto graph = compile(R"(grammar b 1
+  const auto graph = compiled(R"(grammar b 1
 start S
 rule S { for k in 0..3 { move x k * 10  detail Tree(12) } }
 detail Tree(n) { emit box  if n > 0 { for i in [0, 1] { move y i + 1  detail Tree(n - 1) } } }
@@ -418,7 +406,7 @@ detail Tree(n) { emit box  if n > 0 { for i in [0, 1] { move y i + 1  detail Tre
 }
 
 TEST(Expand, EndlessLoopsOfDetailsAreCut) {
-  const auto graph = compile(R"(grammar l 1
+  const auto graph = compiled(R"(grammar l 1
 start S
 rule S { detail D(1000) }
 detail D(n) { for i in 1..n { for j in 1..n { for k in 1..n { move x 1 } } } }
@@ -427,7 +415,7 @@ detail D(n) { for i in 1..n { for j in 1..n { for k in 1..n { move x 1 } } } }
 }
 
 TEST(Expand, LoopsOfDetailsHaveManyTurns) {
-  const auto graph = compile("grammar l 1\nstart S\nrule S { detail D(3000) }\n"
+  const auto graph = compiled("grammar l 1\nstart S\nrule S { detail D(3000) }\n"
                              "detail D(n) { for i in 1..n { move x 2  emit box } }\n");
   const Model model = expand(*graph, sampled(*graph, 0), ExpandTo::full);
   EXPECT_EQ(model.instances.size(), 3000u);
@@ -437,7 +425,7 @@ TEST(Expand, LoopsOfDetailsHaveManyTurns) {
 // Every mirror doubles what stands below it: 2^40 copies of the last gene.
 TEST(Expand, MirrorsWithinMirrorsAreCut) {
   for (const char* last : {"", "move y 1"}) {  // a child that takes its parent's place, and one that waits
-    const auto graph = compile(std::string("grammar m 1\nstart S\nrule S { spawn A }\n"
+    const auto graph = compiled(std::string("grammar m 1\nstart S\nrule S { spawn A }\n"
                                            "rule A when depth < 40 { move x 1  bone (0, 0, 0) -> (0, 1, 0)  "
                                            "mirror x { spawn A }  ") + last + " }\n");
     const Model model = expand(*graph, sampled(*graph, 0), ExpandTo::bones, {.most_copies = 5000});
@@ -447,7 +435,7 @@ TEST(Expand, MirrorsWithinMirrorsAreCut) {
 }
 
 TEST(Expand, NumbersThatAreNoneStayOutOfModels) {
-  const auto graph = compile(R"(grammar n 1
+  const auto graph = compiled(R"(grammar n 1
 material red = surface("#ff0000")
 material blue = surface("#0000ff")
 start S
@@ -465,7 +453,7 @@ rule S {
 }
 
 TEST(Expand, BrokenNumbersEmitNothingAndSaySo) {
-  const auto graph = compile(R"(grammar n 1
+  const auto graph = compiled(R"(grammar n 1
 start S
 rule S { a ~ uniform(0, 1)  emit box  { size x -1 - a  emit box  spawn A } { move x 1 / (a - a)  emit box  spawn A } }
 rule A { emit sphere }
@@ -476,7 +464,7 @@ rule A { emit sphere }
 }
 
 TEST(Expand, StartDrawsAreSeenEverywhere) {
-  const auto graph = compile(R"(grammar g 1
+  const auto graph = compiled(R"(grammar g 1
 start S
 rule S { spawn A  hue ~ uniform(2, 3)  let twice = hue * 2 }
 rule A { size twice  emit box  detail D }

@@ -4,17 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "derivation/sample.h"
+#include "compiled.h"
 #include "grammar/compiler.h"
 #include "model/expand.h"
 
 namespace espalier {
 namespace {
 
-std::shared_ptr<const GeneratorGraph> compile(const std::string& text) {
-  const CompileResult result = compile_grammar({"test.esp", text, {}});
-  EXPECT_TRUE(result.graph) << render(result.diagnostics, "test.esp", text);
-  return result.graph;
-}
+using test::compiled;
 
 constexpr const char* kChain = R"(grammar chain 1
 start A
@@ -33,7 +30,7 @@ detail D(b) { k ~ uniform(0, 1)  paint surface("#404040", glow: b + 0 * k)  emit
 
 // Every part's material is the one that its own size tells, rounded to sixteenths; the reference is this arithmetic.
 TEST(MadeMaterials, AreTheDrawsRoundedAndClamped) {
-  const auto graph = compile(kChain);
+  const auto graph = compiled(kChain);
   RandomStream random({5, Purpose::test, 0, 0});
   const Derivation derivation = sample(*graph, random, 10'000).derivation;
   Model model;
@@ -60,7 +57,7 @@ TEST(MadeMaterials, AreTheDrawsRoundedAndClamped) {
 }
 
 TEST(MadeMaterials, BeyondTheMostAreTheMiddleOneAndCounted) {
-  const auto graph = compile(R"(grammar many 1
+  const auto graph = compiled(R"(grammar many 1
 start A
 rule A {
   k ~ uniform(1, 1.1)
@@ -80,7 +77,7 @@ rule A {
 }
 
 TEST(MadeMaterials, AreLeftOutWhereNobodyLooks) {
-  const auto graph = compile(kChain);
+  const auto graph = compiled(kChain);
   RandomStream random({5, Purpose::test, 0, 3});
   const Derivation derivation = sample(*graph, random, 10'000).derivation;
   Model with, without;
@@ -96,7 +93,7 @@ TEST(MadeMaterials, AreLeftOutWhereNobodyLooks) {
 }
 
 TEST(MadeMaterials, ComeFromDetailsToo) {
-  const auto graph = compile(kChain);
+  const auto graph = compiled(kChain);
   RandomStream random({5, Purpose::test, 0, 2});
   const Derivation derivation = sample(*graph, random, 10'000).derivation;
   Model full, parts;

@@ -1,6 +1,6 @@
 #pragma once
-// A slow, obviously right L-system: rewrites strings of modules and walks them with a turtle, in doubles. Knows nothing of
-// grammars, genes or leaps; uses only the parsed productions.
+// A slow, obviously right L-system: rewrites strings of modules and walks them with a turtle, in doubles. Knows nothing
+// of grammars, genes or leaps; uses only the parsed productions.
 
 #include <cmath>
 #include <functional>
