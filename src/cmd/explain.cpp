@@ -83,7 +83,7 @@ std::string large_number(double count) {
 }
 
 std::string samples_table(const SampleReport& s, const ExplainRequest& request) {
-  TextTable table({{fmt::format("{}, seed {}", counted(request.samples, "sample"), request.seed)}, {"mean", true},
+  TextTable table({{fmt::format("{}, seed {}", counted(s.count, "sample"), request.seed)}, {"mean", true},
                    {"least", true}, {"5%", true}, {"median", true}, {"95%", true}, {"most", true}});
   const auto add = [&](const char* name, const Spread& v) {
     table.add({name, number(v.mean), number(v.least), number(v.low), number(v.median), number(v.high), number(v.most)});
@@ -109,9 +109,12 @@ std::string remarks(const GrammarReport& report, const ExplainRequest& request) 
   }
   const auto share = [&](std::size_t count, const char* what) {
     if (count == 0) return;
-    text += fmt::format("{} of {} samples {} ({}%)\n", count, request.samples, what,
-                        number(100.0 * static_cast<double>(count) / request.samples));
+    text += fmt::format("{} of {} samples {} ({}%)\n", count, s.count, what,
+                        number(100.0 * static_cast<double>(count) / static_cast<double>(s.count)));
   };
+  if (s.count < request.samples) {
+    text += fmt::format("{} of {} samples were looked at: together they have over 5 000 000 parts\n", s.count, request.samples);
+  }
   share(s.open, "reached the budget of 10000 genes: the rest of them stays open");
   share(s.thinned, "reached a budget of parts, loops or copies: parts of them are missing");
   share(s.dropped, "lost parts, because a size was negative or not finite");

@@ -92,7 +92,7 @@ std::string report_json(const GrammarReport& report, const ExplainRequest& reque
     json["derivations"].push_back({{"most_levels", count.levels}, {"count", count.count}});  // null: 10^300 or more
   }
   json["seed"] = request.seed;
-  json["samples"] = request.samples;
+  json["samples"] = report.samples.count;
   json["sampled"] = json_of(report.samples);
   json["seconds"] = {{"draw", report.samples.draw_seconds}, {"build", report.samples.build_seconds}};
   json["warnings"] = report.grammar.warnings;

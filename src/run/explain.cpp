@@ -66,8 +66,26 @@ Spread spread_over(const std::vector<Finding>& findings, double Finding::* value
   return spread_of(std::move(values));
 }
 
+// In blocks, so that it can be told whether there were parts enough without asking the clock.
+std::vector<Finding> look_at_samples(const GeneratorGraph& graph, const MeshTable& meshes, const ExplainRequest& request,
+                                     Executor& executor) {
+  constexpr std::size_t kBlock = 50;
+  std::vector<Finding> findings;
+  double built = 0;
+  while (findings.size() < request.samples && built < kMostPartsOfSamples) {
+    const std::size_t first = findings.size(), count = std::min<std::size_t>(kBlock, request.samples - first);
+    findings.resize(first + count);
+    executor.for_each(count, [&](std::size_t i, int) {
+      findings[first + i] = look_at(graph, meshes, request.seed, static_cast<std::uint32_t>(first + i));
+    });
+    for (std::size_t i = first; i < findings.size(); ++i) built += findings[i].parts + findings[i].details;
+  }
+  return findings;
+}
+
 SampleReport summed_up(const std::vector<Finding>& findings) {
   SampleReport report;
+  report.count = findings.size();
   report.genes = spread_over(findings, &Finding::genes);
   report.levels = spread_over(findings, &Finding::levels);
   report.parts = spread_over(findings, &Finding::parts);
@@ -169,15 +187,12 @@ GrammarReport explain_grammar(const ExplainRequest& request, MeshSource& source,
     report.expected = std::accumulate(expected->begin(), expected->end(), 0.0);
     for (std::size_t r = 0; r < report.rules.size(); ++r) report.rules[r].expected = (*expected)[r];
   }
-  std::vector<Finding> findings(request.samples);
-  executor.for_each(request.samples, [&](std::size_t index, int) {
-    findings[index] = look_at(graph, meshes, request.seed, static_cast<std::uint32_t>(index));
-  });
+  const std::vector<Finding> findings = look_at_samples(graph, meshes, request, executor);
   report.samples = summed_up(findings);
   for (std::size_t r = 0; r < report.rules.size(); ++r) {
     double genes = 0;
     for (const Finding& found : findings) genes += found.genes_of_rule[r];
-    report.rules[r].mean = genes / request.samples;
+    report.rules[r].mean = genes / static_cast<double>(findings.size());
   }
   return report;
 }

@@ -52,7 +52,11 @@ struct MeshReport {
   std::size_t triangles = 0;
 };
 
+/// Once samples have this many parts together, no more are drawn: grammars of large models would take minutes.
+inline constexpr double kMostPartsOfSamples = 5e6;
+
 struct SampleReport {
+  std::size_t count = 0;  // of the samples asked for, at least 50 if so many were
   Spread genes, levels, parts, details, triangles;  // parts: emits of rules; details: of details
   Spread log_prior;
   std::array<Spread, 3> size;   // metres; of the samples that show anything

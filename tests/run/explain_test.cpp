@@ -127,6 +127,14 @@ rule T when depth < 30 { for i in 0..2 { move x i  maybe 0.9 spawn T } })", 3);
   EXPECT_EQ(r.samples.dropped, r.samples.bare);
 }
 
+TEST_F(Explain, EnoughPartsAreEnough) {
+  const GrammarReport r = explained(
+      "grammar crowd 1 start S rule S { detail D } detail D { for i in 0..60000 { emit box  move x 1  emit box } }", 200);
+  EXPECT_EQ(r.samples.count, 50u) << "of 120 002 parts each: over 5 000 000 together";
+  EXPECT_EQ(r.samples.details.mean, 120'002);
+  EXPECT_EQ(explained(kCoins, 300).samples.count, 300u);
+}
+
 TEST_F(Explain, ThreadsMakeNoDifferenceAndSeedsDo) {
   const GrammarReport one = explained(kCoins, 300, 1, 1), four = explained(kCoins, 300, 1, 4);
   EXPECT_EQ(one.samples.triangles.mean, four.samples.triangles.mean);
