@@ -1,12 +1,16 @@
 #include "render/set.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <map>
+#include <unordered_set>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "base/hash.h"
 #include "model/uv.h"
 #include "render/crease.h"
 
@@ -38,6 +42,28 @@ Mat3 cofactors(const glm::dmat3& m) {
   return scale > 0 ? Mat3(c * (sign / scale)) : Mat3(1);
 }
 
+/// Parts met before, equal in every bit: shape, material and place.
+class Twins {
+ public:
+  bool met(const Part& part) {
+    Key key{part.shape, part.material};
+    static_assert(sizeof(Frame) == 12 * sizeof(std::uint32_t));
+    std::memcpy(key.data() + 2, &part.model_from_shape, sizeof(Frame));
+    return !seen_.insert(key).second;
+  }
+
+ private:
+  using Key = std::array<std::uint32_t, 14>;
+  struct Hash {
+    std::size_t operator()(const Key& key) const {
+      std::uint64_t hash = 0;
+      for (const std::uint32_t word : key) hash = scatter(hash ^ word);
+      return hash;
+    }
+  };
+  std::unordered_set<Key, Hash> seen_;
+};
+
 class SetBuilder {
  public:
   SetBuilder(const Model& model, const MeshTable& table, const std::vector<Mesh>& ghosts, bool full)
@@ -51,12 +77,15 @@ class SetBuilder {
     add_textures();
     std::vector<Placed> opaque, translucent, ghosts;
     shapes_.resize(2 * parts_.shapes.size());
+    Twins twins;
     for (const Part& part : parts_.parts) {
       const Shape& shape = parts_.shapes[part.shape];
       const AlphaMode alpha = surfaces.alpha_mode(part.material);
       const Material& m = surfaces.material(part.material);
       const bool nowhere = alpha == AlphaMode::mask && m.opacity < m.cutout;
       if (shape.mesh.triangles.empty() || nowhere) continue;
+      // Thousands of parts in one place look like one, but every ray would try them all.
+      if (alpha != AlphaMode::blend && twins.met(part)) continue;
       (alpha == AlphaMode::blend ? translucent : opaque).push_back(place(part, shape));
     }
     for (Mesh& ghost : ghosts_) {

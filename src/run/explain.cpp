@@ -67,8 +67,8 @@ Spread spread_over(const std::vector<Finding>& findings, double Finding::* value
 }
 
 // In blocks, so that it can be told whether there were parts enough without asking the clock.
-std::vector<Finding> look_at_samples(const GeneratorGraph& graph, const MeshTable& meshes, const ExplainRequest& request,
-                                     Executor& executor) {
+std::vector<Finding> look_at_samples(const GeneratorGraph& graph, const MeshTable& meshes,
+                                     const ExplainRequest& request, Executor& executor) {
   constexpr std::size_t kBlock = 50;
   std::vector<Finding> findings;
   double built = 0;

@@ -28,6 +28,15 @@ TEST(Render, IsTheSameBytesOnEveryMachine) {
             "8ab911d2cdff5a3e533522467c452185");
 }
 
+TEST(Render, ManyPartsInOnePlaceAreOnePart) {
+  Model once = small_ship(), often = small_ship();
+  std::erase_if(once.instances, [](const Instance& i) { return i.material == 2; });  // glass adds up
+  often.instances.clear();
+  for (int i = 0; i < 500; ++i)
+    often.instances.insert(often.instances.end(), once.instances.begin(), once.instances.end());
+  EXPECT_EQ(picture_of(often, {}).rgb, picture_of(once, {}).rgb);
+}
+
 struct Extent {
   double x = 0, y = 0;  // centroid of what differs
   std::uint32_t left = ~0u, right = 0, top = ~0u, bottom = 0;
