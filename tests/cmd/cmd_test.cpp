@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cmd/child.h"
-#include "run/fixtures.h"
+#include "cmd/program_test.h"
 
 namespace espalier {
 namespace {
@@ -19,21 +18,15 @@ using testing::ChildResult;
 using testing::pile_scene;
 using testing::read_text;
 using testing::read_tree;
-using testing::run_program;
-using testing::TemporaryFolder;
 using testing::write_pile;
 using testing::write_text;
 
 namespace fs = std::filesystem;
 
-class Cmd : public ::testing::Test {
+class Cmd : public testing::ProgramTest {
  protected:
   Cmd() { write_pile(folder_); }
 
-  ChildResult espalier(const std::vector<std::string>& arguments, ChildOptions options = {}) {
-    options.folder = folder_.path();
-    return run_program(arguments, scratch_ / "child", options);
-  }
   /// What lies in the folder beside the three files of the scene.
   std::vector<std::string> leftovers() {
     std::vector<std::string> names;
@@ -43,8 +36,6 @@ class Cmd : public ::testing::Test {
     }
     return names;
   }
-
-  TemporaryFolder folder_, scratch_;
 };
 
 TEST_F(Cmd, HelpAndVersionSucceed) {

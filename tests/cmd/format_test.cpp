@@ -4,8 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cmd/child.h"
-#include "run/fixtures.h"
+#include "cmd/program_test.h"
 
 namespace espalier {
 namespace {
@@ -13,22 +12,12 @@ namespace {
 using ::testing::HasSubstr;
 using testing::ChildResult;
 using testing::read_text;
-using testing::run_program;
-using testing::TemporaryFolder;
 using testing::write_text;
 
 constexpr const char* kRough = "grammar g 1 start A  # c\nrule A{emit box}";
 constexpr const char* kSmooth = "grammar g 1\nstart A  # c\nrule A { emit box }\n";
 
-class Format : public ::testing::Test {
- protected:
-  ChildResult espalier(const std::vector<std::string>& arguments) {
-    testing::ChildOptions options;
-    options.folder = folder_.path();
-    return run_program(arguments, scratch_ / "child", options);
-  }
-  TemporaryFolder folder_, scratch_;
-};
+class Format : public testing::ProgramTest {};
 
 TEST_F(Format, ReplacesFilesThatChange) {
   write_text(folder_ / "a.esp", kRough);

@@ -5,9 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cmd/child.h"
+#include "cmd/program_test.h"
 #include "render/xml_check.h"
-#include "run/fixtures.h"
 
 namespace espalier {
 namespace {
@@ -18,25 +17,17 @@ using testing::ChildOptions;
 using testing::ChildResult;
 using testing::read_text;
 using testing::read_xml;
-using testing::run_program;
-using testing::TemporaryFolder;
 using testing::write_pile;
 using testing::write_text;
 
 namespace fs = std::filesystem;
 
-class GraphAndExplain : public ::testing::Test {
+class GraphAndExplain : public testing::ProgramTest {
  protected:
   GraphAndExplain() { write_pile(folder_); }
-  ChildResult espalier(const std::vector<std::string>& arguments, ChildOptions options = {}) {
-    options.folder = folder_.path();
-    return run_program(arguments, scratch_ / "child", options);
-  }
   void make_samples() {
     ASSERT_EQ(espalier({"sample", "pile.esp", "-n", "1", "--grow", "9", "--out", "s"}).exit_code, 0);
   }
-
-  TemporaryFolder folder_, scratch_;
 };
 
 TEST_F(GraphAndExplain, GrammarsAreDrawnToAFileOrTheOutput) {

@@ -2,8 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cmd/child.h"
-#include "run/fixtures.h"
+#include "cmd/program_test.h"
 
 namespace espalier {
 namespace {
@@ -12,19 +11,9 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using testing::ChildResult;
 using testing::read_text;
-using testing::run_program;
-using testing::TemporaryFolder;
 using testing::write_text;
 
-class Import : public ::testing::Test {
- protected:
-  ChildResult espalier(const std::vector<std::string>& arguments) {
-    testing::ChildOptions options;
-    options.folder = folder_.path();
-    return run_program(arguments, scratch_ / "child", options);
-  }
-  TemporaryFolder folder_, scratch_;
-};
+class Import : public testing::ProgramTest {};
 
 TEST_F(Import, WritesAGrammarThatChecksAndIsFormatted) {
   write_text(folder_ / "my plant.lsys", "axiom: X\nX -> F[+X]FX\nF -> FF\n");

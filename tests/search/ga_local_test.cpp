@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "search/engine_log.h"
 #include "search/ga.h"
 #include "search/test_graph.h"
 
@@ -38,12 +39,7 @@ class PlateauScorer final : public BatchScorer {
 
 struct Bench {
   explicit Bench(const GaSettings& settings) : engine({testing::twig_graph(), {}, &scorer, 5, 0}, settings) {}
-  std::uint64_t count(const std::string& name) const {
-    for (const NamedCount& count : engine.diagnostics())
-      if (count.name == name) return count.value;
-    ADD_FAILURE() << name;
-    return 0;
-  }
+  std::uint64_t count(const std::string& name) const { return testing::count_of(engine, name); }
   PlateauScorer scorer;
   GaEngine engine;
 };

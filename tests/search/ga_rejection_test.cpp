@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "search/engine_log.h"
 #include "search/ga.h"
 #include "search/test_graph.h"
 
@@ -15,6 +16,8 @@ namespace {
 
 using testing::buds_in;
 using testing::ChoosyScorer;
+using testing::count_of;
+using testing::log_of;
 using testing::twig_graph;
 
 GaSettings small_settings() {
@@ -37,26 +40,6 @@ struct Bench {
   ChoosyScorer scorer;
   GaEngine engine;
 };
-
-std::uint64_t count_of(const GaEngine& engine, const std::string& name) {
-  for (const NamedCount& count : engine.diagnostics()) {
-    if (count.name == name) return count.value;
-  }
-  ADD_FAILURE() << "no count named " << name;
-  return 0;
-}
-
-std::string log_of(GaEngine& engine, int steps) {
-  std::ostringstream log;
-  for (int i = 0; i < steps; ++i) {
-    engine.step();
-    log << engine.steps() << ' ' << engine.evaluations() << ' ' << engine.best().score;
-    for (const Individual& individual : engine.population()) log << ' ' << hash(individual.derivation);
-    for (const NamedCount& count : engine.diagnostics()) log << ' ' << count.value;
-    log << '\n';
-  }
-  return log.str();
-}
 
 void expect_all_acceptable(const Bench& bench) {
   ASSERT_EQ(bench.engine.population().size(), 31u);

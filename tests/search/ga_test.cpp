@@ -9,12 +9,15 @@
 
 #include "base/error.h"
 #include "derivation/encode.h"
+#include "search/engine_log.h"
 #include "search/test_graph.h"
 
 namespace espalier {
 namespace {
 
 using testing::BudScorer;
+using testing::count_of;
+using testing::log_of;
 using testing::stunted_graph;
 using testing::twig_graph;
 
@@ -35,27 +38,6 @@ struct Bench {
   BudScorer scorer;
   GaEngine engine;
 };
-
-// Everything that a step leaves behind.
-std::string log_of(GaEngine& engine, int steps) {
-  std::ostringstream log;
-  for (int i = 0; i < steps; ++i) {
-    engine.step();
-    log << engine.steps() << ' ' << engine.evaluations() << ' ' << engine.best().score;
-    for (const Individual& individual : engine.population()) log << ' ' << hash(individual.derivation);
-    for (const NamedCount& count : engine.diagnostics()) log << ' ' << count.value;
-    log << '\n';
-  }
-  return log.str();
-}
-
-std::uint64_t count_of(const GaEngine& engine, const std::string& name) {
-  for (const NamedCount& count : engine.diagnostics()) {
-    if (count.name == name) return count.value;
-  }
-  ADD_FAILURE() << "no count named " << name;
-  return 0;
-}
 
 TEST(Ga, SameSeedSameCourse) {
   Bench a, b;
