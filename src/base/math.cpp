@@ -1,5 +1,6 @@
 #include "base/math.h"
 
+#include "base/natural_exp.h"
 #include "base/natural_log.h"
 
 namespace espalier {
@@ -23,24 +24,11 @@ double tail(double p) {
   return numerator / denominator;
 }
 
-/// e^x in double precision, -150 < x < 150, within about 4 ulp.
-double exponential_of(double x) {
-  // x = k log 2 + r, |r| <= 0.3466: the Taylor series up to r^13 leaves less than 2^-55
-  constexpr double kLog2High = 0x1.62e42fefa0000p-1, kLog2Low = 0x1.cf79abc9e3b3ap-40;
-  const double k = std::floor(x / (kLog2High + kLog2Low) + 0.5);
-  const double r = (x - k * kLog2High) - k * kLog2Low;
-  constexpr double kInverse[] = {0,       1,       1. / 2,  1. / 3,  1. / 4,  1. / 5,  1. / 6,
-                                 1. / 7, 1. / 8, 1. / 9, 1. / 10, 1. / 11, 1. / 12, 1. / 13};
-  double series = 1;
-  for (std::size_t n = 13; n >= 1; --n) series = 1 + r * kInverse[n] * series;
-  return series * std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(k) + 1023) << 52);
-}
-
 /// Rounded to float, of any x; what is too large or too small is infinity or 0.
 float rounded_exponential(double x) {
   if (x != x) return NAN;
   if (x > 89) return INFINITY;
-  return x < -104 ? 0.0f : static_cast<float>(exponential_of(x));
+  return x < -104 ? 0.0f : static_cast<float>(natural_exp(x));
 }
 
 bool is_whole(float x) { return std::floor(x) == x; }
