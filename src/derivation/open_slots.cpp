@@ -32,8 +32,8 @@ bool append_seedling(const GeneratorGraph& graph, EdgeId edge, DepthCounter abov
   return true;
 }
 
-/// Open slots that can be decided, in order.
-void find_open_slots(const GeneratorGraph& graph, const Derivation& derivation, const LimitLedger& ledger,
+/// Open slots that can be decided, in order; with those of full rules where growth is strict.
+void find_open_slots(const GeneratorGraph& graph, const Derivation& derivation, const LimitLedger& ledger, bool strict,
                      std::vector<OpenSlot>& found) {
   found.clear();
   std::size_t first = 0;  // of the gene's own slots
@@ -43,37 +43,53 @@ void find_open_slots(const GeneratorGraph& graph, const Derivation& derivation, 
     for (std::uint32_t k = 0; k < variant.slots.size(); ++k) {
       if (derivation.slots[first + k] != SlotState::open) continue;
       const Edge& edge = graph.edges[rule.slots[variant.slots[k]].edge];
-      if (!edge.required || ledger.has_room(edge.child)) found.push_back({g, k});
+      if (strict || !edge.required || ledger.has_room(edge.child)) found.push_back({g, k});
     }
     first += variant.slots.size();
   }
 }
 
-/// Decides one open slot by the prior, if there is a way; `made` tells whether the gene made emits or has a bone.
-bool decide(const GeneratorGraph& graph, const OpenSlot& open, LimitLedger& ledger, RandomStream& random,
-            Derivation& derivation, bool& made) {
+/// The slot to decide next. Depth-first growth has decided all slots before that of the gene where it stands, which is
+/// the last one with an open slot.
+const OpenSlot& pick_slot(const std::vector<OpenSlot>& open, SlotOrder order, RandomStream& random) {
+  if (order == SlotOrder::random) return open[random.below(static_cast<std::uint32_t>(open.size()))];
+  std::size_t i = open.size() - 1;
+  while (i > 0 && open[i - 1].gene == open.back().gene) --i;
+  return open[i];
+}
+
+enum class Decision : std::uint8_t {
+  empty,
+  filled,
+  made,       // filled, with a gene that emits or has a bone
+  forbidden,  // the slot is still open
+};
+
+/// Decides one open slot by the prior.
+Decision decide(const GeneratorGraph& graph, const OpenSlot& open, bool strict, LimitLedger& ledger,
+                RandomStream& random, Derivation& derivation) {
   GenePath path;
   locate(graph, derivation, open.gene, path);
   const Rule& rule = rule_of(graph, derivation.genes[open.gene]);
   const EdgeId edge = rule.slots[variant_of(graph, derivation.genes[open.gene]).slots[open.slot]].edge;
   const Edge& way = graph.edges[edge];
   const std::size_t slot = path.gene.slot + open.slot;
-  const bool fill =
-      way.required || (random.chance(fill_probability(way, path.above.counts())) && ledger.has_room(way.child));
-  if (!fill) {
+  const bool fill = way.required || random.chance(fill_probability(way, path.above.counts()));
+  if (!fill || (!strict && !way.required && !ledger.has_room(way.child))) {
     derivation.slots[slot] = SlotState::empty;
-    return true;
+    return Decision::empty;
   }
   Derivation gene;
   path.above.enter(rule);
-  if (!append_seedling(graph, edge, path.above, random, gene)) return false;
+  if (!ledger.has_room(way.child) || !append_seedling(graph, edge, path.above, random, gene)) {
+    return Decision::forbidden;
+  }
   ledger.add(way.child);
-  made = makes_something(variant_of(graph, gene.genes[0]));
   const GenePosition place = child_in_slot(graph, derivation, path.gene, open.slot);
   path.steps.push_back({path.gene, open.slot});
   splice_in_place(derivation, {place, 0, 0, 0}, gene, whole(gene), path.steps);
   derivation.slots[slot] = SlotState::filled;
-  return true;
+  return makes_something(variant_of(graph, gene.genes[0])) ? Decision::made : Decision::filled;
 }
 
 /// Writes a closed copy of a derivation.
@@ -154,27 +170,32 @@ bool makes_something(const Variant& variant) {
                      });
 }
 
-bool grow_open_slot(const GeneratorGraph& graph, Derivation& derivation, RandomStream& random) {
+GrowthStep grow_open_slot(const GeneratorGraph& graph, Derivation& derivation, RandomStream& random, SlotOrder order,
+                          bool strict) {
   LimitLedger ledger;
   ledger.reset(graph, derivation);
   std::vector<OpenSlot> open;
-  bool decided = false, made = false;
+  bool decided = false;
   constexpr std::size_t kMostNew = 1000;  // grammars need not emit at all
   const std::size_t most_genes = derivation.size() + kMostNew;
-  while (!made && derivation.size() < most_genes) {
-    find_open_slots(graph, derivation, ledger, open);
+  while (derivation.size() < most_genes) {
+    find_open_slots(graph, derivation, ledger, strict, open);
     if (open.empty()) break;
-    const OpenSlot& picked = open[random.below(static_cast<std::uint32_t>(open.size()))];
-    if (!decide(graph, picked, ledger, random, derivation, made)) break;
+    const Decision decision = decide(graph, pick_slot(open, order, random), strict, ledger, random, derivation);
+    if (decision == Decision::forbidden && strict) return GrowthStep::stuck;
+    if (decision == Decision::forbidden) break;
     decided = true;
+    if (decision == Decision::made) break;
   }
-  return decided;
+  return decided ? GrowthStep::grown : GrowthStep::finished;
+}
+
+bool is_finished(const Derivation& derivation) {
+  return std::find(derivation.slots.begin(), derivation.slots.end(), SlotState::open) == derivation.slots.end();
 }
 
 bool close_open_slots(const GeneratorGraph& graph, Derivation& derivation, RandomStream& random) {
-  if (std::find(derivation.slots.begin(), derivation.slots.end(), SlotState::open) == derivation.slots.end()) {
-    return true;
-  }
+  if (is_finished(derivation)) return true;
   LimitLedger ledger;
   ledger.reset(graph, derivation);
   Closer closer(graph, derivation, random);

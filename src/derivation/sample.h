@@ -24,11 +24,27 @@ struct SampleResult {
 /// again, at most 1000 times, then Error naming the rule; Error too where all weights of a choice are 0.
 SampleResult sample(const GeneratorGraph& graph, RandomStream& random, std::uint32_t most_genes = 10'000);
 
-/// One step of growth in random order: decides open slots, picked uniformly, by the prior until a gene has been made
-/// that emits or has a bone, or none is open, or 1000 genes were made (SOSMC's order; language.md 13). New genes have
-/// open slots. A slot whose rule has reached its limit is decided empty if optional, and left open if required. False
-/// if nothing could be decided.
-bool grow_open_slot(const GeneratorGraph& graph, Derivation& derivation, RandomStream& random);
+enum class SlotOrder : std::uint8_t {
+  random,       // any open slot, uniformly: SOSMC (Ritchie et al. 2015)
+  depth_first,  // in the order of the text, what stands in a slot before the next slot: SMC
+};
+
+enum class GrowthStep : std::uint8_t {
+  finished,  // there was nothing to decide: the derivation is as before
+  grown,
+  stuck,     // strict growth only: the prior would throw this derivation away
+};
+
+/// One step of growth: decides open slots by the prior, in the given order and each once, until a gene has been made
+/// that emits or has a bone, or none is open, or 1000 genes were made (language.md 13). New genes have open slots.
+/// Where a slot's rule has reached its limit, or all weights of its alternatives are 0, lenient growth decides
+/// optional slots empty and leaves required ones open. Strict growth ends `stuck`: then what is not stuck is
+/// distributed as the prior, in whichever order it grew (limits only reject, language.md 8).
+GrowthStep grow_open_slot(const GeneratorGraph& graph, Derivation& derivation, RandomStream& random,
+                          SlotOrder order = SlotOrder::random, bool strict = false);
+
+/// No slot is open.
+bool is_finished(const Derivation& derivation);
 
 /// Closes every open slot: optional ones become empty, required ones are grown (their optional slots empty). False, and
 /// the derivation untouched, if limits or endless required growth left no way in 100 tries.

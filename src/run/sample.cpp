@@ -85,7 +85,7 @@ Derivation SampleSet::draw_one(RandomStream& random) {
   Derivation derivation = seedling(graph, random);
   if (request_.grow) {
     for (std::uint32_t step = 0; step < *request_.grow; ++step) {
-      if (!grow_open_slot(graph, derivation, random)) break;
+      if (grow_open_slot(graph, derivation, random) != GrowthStep::grown) break;
     }
   } else {
     if (!close_open_slots(graph, derivation, random)) throw Error("the start's required slots cannot be grown");

@@ -39,12 +39,71 @@ TEST(GrowOpenSlot, StepByStepFollowsThePrior) {
   std::map<std::string, int> counts;
   for (int i = 0; i < 20000; ++i) {
     Derivation d = seedling(graph, random);
-    while (grow_open_slot(graph, d, random)) {
+    while (grow_open_slot(graph, d, random) == GrowthStep::grown) {
     }
     EXPECT_EQ(count_open(d), 0u);
     ++counts[key_of(graph, d)];
   }
   expect_distribution(prior, counts);
+}
+
+// Strict growth of a grammar with a limit, whatever the order: what is not stuck follows the prior, given that.
+TEST(GrowOpenSlot, StrictGrowthRejectsLikeThePrior) {
+  GraphBuilder b("limited");
+  const RuleId root = b.rule("Root"), twig = b.rule("Twig"), leaf = b.rule("Leaf");
+  b.maybe(root, twig, 0.6, 2);
+  b.maybe(twig, leaf, 0.5, 2);
+  b.limit(leaf, 2);
+  const GeneratorGraph graph = b.build();
+  std::map<std::string, double> prior;
+  double total = 0;
+  const Enumeration enumeration(graph);
+  for (const Enumerated& one : enumeration.all()) {
+    const auto leaves = one.genes.find(leaf);
+    if (leaves != one.genes.end() && leaves->second > 2) continue;
+    total += one.probability;
+    prior[one.key] += one.probability;
+  }
+  ASSERT_LT(total, 0.99);
+  for (auto& [key, probability] : prior) probability /= total;
+  for (const SlotOrder order : {SlotOrder::random, SlotOrder::depth_first}) {
+    RandomStream random = stream(7);
+    std::map<std::string, int> counts;
+    int stuck = 0;
+    constexpr int kTries = 20000;
+    for (int i = 0; i < kTries; ++i) {
+      Derivation d = seedling(graph, random);
+      GrowthStep step = GrowthStep::grown;
+      while (step == GrowthStep::grown) step = grow_open_slot(graph, d, random, order, true);
+      if (step == GrowthStep::finished) ++counts[key_of(graph, d)];
+      stuck += step == GrowthStep::stuck;
+    }
+    expect_distribution(prior, counts);
+    EXPECT_NEAR(stuck, kTries * (1 - total), 4 * std::sqrt(kTries * total * (1 - total)));
+  }
+}
+
+// Depth-first growth without chance: the genes come in the order that derivations store them.
+TEST(GrowOpenSlot, DepthFirstGrowsInTheOrderOfTheText) {
+  GeneratorGraph graph = tiny();
+  Op bone;
+  bone.code = OpCode::bone;
+  for (Rule& rule : graph.rules) {
+    for (Variant& variant : rule.variants) variant.program.ops.push_back(bone);
+  }
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    RandomStream random = stream(seed);
+    Derivation d = seedling(graph, random);
+    while (true) {
+      const Derivation before = d;
+      if (grow_open_slot(graph, d, random, SlotOrder::depth_first) != GrowthStep::grown) break;
+      ASSERT_LE(d.size(), before.size() + 1);
+      for (std::size_t g = 0; g < before.size(); ++g) ASSERT_EQ(d.genes[g].edge, before.genes[g].edge);
+      const auto open = std::find(d.slots.begin(), d.slots.end(), SlotState::open);
+      ASSERT_TRUE(d.size() > before.size() || open == d.slots.end());
+    }
+    EXPECT_TRUE(is_finished(d));
+  }
 }
 
 TEST(GrowOpenSlot, AStepEndsWithAGeneThatMakesSomething) {
@@ -61,7 +120,7 @@ TEST(GrowOpenSlot, AStepEndsWithAGeneThatMakesSomething) {
     const auto leaves = [&] {
       return std::count_if(d.genes.begin(), d.genes.end(), [](const GeneRecord& gene) { return gene.edge == 3; });
     };
-    for (long before = 0; grow_open_slot(graph, d, random); ++steps) {
+    for (long before = 0; grow_open_slot(graph, d, random) == GrowthStep::grown; ++steps) {
       ASSERT_EQ(find_fault(graph, d), "");
       EXPECT_TRUE(leaves() == before + 1 || (leaves() == before && count_open(d) == 0));
       before = leaves();
@@ -83,7 +142,7 @@ TEST(GrowOpenSlot, PicksOpenSlotsUniformly) {
   RandomStream random = stream(3);
   for (int i = 0; i < 8000; ++i) {
     Derivation d = seedling(graph, random);
-    ASSERT_TRUE(grow_open_slot(graph, d, random));
+    ASSERT_EQ(grow_open_slot(graph, d, random), GrowthStep::grown);
     const auto filled = std::find(d.slots.begin(), d.slots.end(), SlotState::filled);
     if (count_open(d) == 3) ++counts[static_cast<std::size_t>(filled - d.slots.begin())];
   }
@@ -104,7 +163,7 @@ TEST(GrowOpenSlot, StaysValidOnRandomGraphs) {
     std::optional<Derivation> d = random_derivation(graph, random, 5);
     for (int k = 0; d && k < 20 && d->size() < 500; ++k) {
       const Derivation before = *d;
-      const bool grown = grow_open_slot(graph, *d, random);
+      const bool grown = grow_open_slot(graph, *d, random) == GrowthStep::grown;
       ASSERT_EQ(find_fault(graph, *d), "") << "seed " << seed;
       EXPECT_EQ(grown, !(before == *d));
       EXPECT_EQ(d->detail_seed, before.detail_seed);
@@ -125,7 +184,7 @@ TEST(GrowOpenSlot, LeavesRequiredSlotsOfAFullRuleOpen) {
   RandomStream random = stream(4);
   for (int i = 0; i < 50; ++i) {
     Derivation d = seedling(graph, random);
-    while (grow_open_slot(graph, d, random)) {
+    while (grow_open_slot(graph, d, random) == GrowthStep::grown) {
     }
     EXPECT_EQ(find_fault(graph, d), "");
     EXPECT_EQ(d.size(), 2u);
