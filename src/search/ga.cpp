@@ -34,24 +34,19 @@ const Individual& GaEngine::best() const {
 }
 
 void GaEngine::step() {
-  newcomers_.resize(settings_.population);
-  scored_.assign(settings_.population, 0);
   const double best_before = steps_ == 0 ? 0 : population_.front().score;
   const bool anew = steps_ == 0 || restart_is_due();
-  if (steps_ > 0 && anew) restart();
   if (anew) {
-    make_initial_population();
+    begin_population();
   } else {
+    newcomers_.resize(settings_.population);
+    scored_.assign(settings_.population, 0);
     make_next_generation();
-  }
-  score_newcomers();
-  while (!rejected_.empty()) {
-    if (anew) {
-      redraw_starts();
-    } else {
-      redraw_children();
-    }
     score_newcomers();
+    while (!rejected_.empty()) {
+      redraw_children();
+      score_newcomers();
+    }
   }
   sort_newcomers();
   if (steps_ == 0 || population_.front().score > best_.score) best_ = population_.front();

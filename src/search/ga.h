@@ -12,6 +12,7 @@
 #include "search/engine.h"
 #include "search/ga_settings.h"
 #include "search/ga_variation.h"
+#include "search/initial_population.h"
 #include "search/selection.h"
 
 namespace espalier {
@@ -32,8 +33,6 @@ class GaEngine final : public Engine {
   const Individual& best() const override;
   std::vector<NamedCount> diagnostics() const override { return named(counts_); }
 
-  /// How often a population is begun before what is still missing of it is copied from what was acceptable.
-  static constexpr std::uint32_t kMostStartRounds = 50;
   void save(std::ostream& out) const override;
   void load(std::istream& in) override;
 
@@ -47,12 +46,8 @@ class GaEngine final : public Engine {
     std::uint32_t attempts = 0;
   };
 
-  void make_initial_population();
-  void redraw_starts();
-  void copy_starts();
+  void begin_population();
   bool restart_is_due() const;
-  void restart();
-  bool make_start(std::uint32_t index, Derivation& start);
   void make_next_generation();
   void redraw_children();
   void breed(Brood& brood, std::span<const std::size_t> places);
@@ -80,8 +75,6 @@ class GaEngine final : public Engine {
   std::vector<char> scored_;            // per newcomer
   std::vector<std::size_t> rejected_;   // places of newcomers that were just found not acceptable, ascending
   std::vector<Brood> broods_;           // of the generation being made
-  std::vector<std::uint32_t> starts_;   // per place of a population being begun: attempts made
-  std::uint32_t start_rounds_ = 0;
   Child children_[2];
   std::vector<double> scores_;
   std::vector<const Derivation*> batch_;

@@ -7,17 +7,10 @@
 #include <string_view>
 
 #include "derivation/moves.h"
+#include "search/gene_limits.h"
 #include "search/selection.h"
 
 namespace espalier {
-
-/// Hard limits on the size of an individual, both ends allowed.
-struct GeneLimits {
-  std::uint32_t min = 4;    // ShapeGenetics 2017, experiments
-  std::uint32_t max = 100;  // spaceship scene; others allow more
-
-  bool operator==(const GeneLimits&) const = default;
-};
 
 /// The defaults are the preset `ga-2017`.
 struct GaSettings {

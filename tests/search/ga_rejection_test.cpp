@@ -145,7 +145,7 @@ TEST(GaRejection, WhereNothingIsAcceptableItEndsInAnError) {
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "none of 1550 models grown from grammar twigs is acceptable: it is choosy");
   }
-  EXPECT_EQ(bench.scorer.asked, 31u * GaEngine::kMostStartRounds);
+  EXPECT_EQ(bench.scorer.asked, 31u * kMostStartRounds);
 }
 
 TEST(GaRejection, WhereNoChildIsAcceptableParentsAreKept) {
