@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "search/require.h"
 
 namespace espalier {
 namespace {
@@ -17,14 +18,6 @@ constexpr std::array<GaPreset, 5> kPresets = {{
     {"ga-2016-final", "Haubenwallner et al. 2016, section 4.3: the final parameters"},
     {"ga-local", "ga-2017 with nudges, no twins, and a new population where one has stalled"},
 }};
-
-template <typename T>
-void require_range(std::string_view name, T value, T low, T high) {
-  // Written so that NaN fails.
-  if (!(value >= low && value <= high)) {
-    throw Error(fmt::format("{} must be between {} and {}, got {}", name, low, high, value));
-  }
-}
 
 void require_shares(const GaSettings& s) {
   constexpr double kMost = 1e6;
@@ -60,14 +53,7 @@ GaSettings baseline_2016() {
 void validate(const GaSettings& s) {
   require_range("population", s.population, 2u, 1'000'000u);
   require_range("elitism", s.elitism, 0u, s.population - 1);
-  require_range("genes.min", s.genes.min, 1u, 1'000'000u);
-  require_range("genes.max", s.genes.max, s.genes.min, 1'000'000u);
-  require_range("initial_length", s.initial_length_min, 1u, 1'000'000u);
-  require_range("initial_length (its upper end)", s.initial_length_max, s.initial_length_min, 1'000'000u);
-  if (s.initial_length_max < s.genes.min || s.initial_length_min > s.genes.max) {
-    throw Error(fmt::format("initial_length must overlap the gene limits {} to {}, got {} to {}", s.genes.min,
-                            s.genes.max, s.initial_length_min, s.initial_length_max));
-  }
+  require_lengths(s.initial_length_min, s.initial_length_max, s.genes);
   require_range("mutation", s.mutation, 0.0, 1.0);
   require_shares(s);
   require_range("tournament_size", s.tournament_size, 1u, 10'000u);

@@ -1,0 +1,44 @@
+#include "search/engine_state.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "derivation/encode.h"
+
+namespace espalier {
+
+void write_head(StateWriter& writer, std::uint64_t magic, std::uint64_t version, const std::string& fingerprint) {
+  writer.u64(magic);
+  writer.u64(version);
+  writer.text(fingerprint);
+}
+
+void read_head(StateReader& reader, std::uint64_t magic, std::uint64_t version, const std::string& fingerprint) {
+  if (reader.u64() != magic) throw Error("saved state: this is no saved state of a search by this engine");
+  if (const std::uint64_t got = reader.u64(); got != version) {
+    throw Error(fmt::format("saved state: version must be {}, got {}", version, got));
+  }
+  if (const std::string got = reader.text(); got != fingerprint) {
+    throw Error(fmt::format("saved state: it belongs to another search\n  saved: {}\n  this:  {}", got, fingerprint));
+  }
+}
+
+void write_individual(StateWriter& writer, const Individual& individual) {
+  writer.f64(individual.score);
+  writer.derivation(individual.derivation);
+}
+
+Individual read_individual(StateReader& reader, const GeneratorGraph& graph) {
+  Individual individual;
+  individual.score = reader.f64();
+  if (!std::isfinite(individual.score)) throw Error("saved state: a score must be finite");
+  individual.derivation = reader.derivation();
+  if (const std::string fault = find_fault(graph, individual.derivation); !fault.empty()) {
+    throw Error("saved state: a derivation does not fit the grammar: " + fault);
+  }
+  return individual;
+}
+
+}  // namespace espalier

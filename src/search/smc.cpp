@@ -1,0 +1,245 @@
+#include "search/smc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "base/natural_log.h"
+#include "search/initial_population.h"
+
+namespace espalier {
+namespace {
+
+constexpr double kNothing = -std::numeric_limits<double>::infinity();
+
+SmcSettings validated(const SmcSettings& settings) {
+  validate(settings);
+  return settings;
+}
+
+double beta_of(const SmcSettings& settings, double optimum) {
+  if (settings.temperature) return 1 / *settings.temperature;
+  return optimum > 0 && std::isfinite(optimum) ? 100 / optimum : 1;
+}
+
+}  // namespace
+
+SmcEngine::SmcEngine(const SearchProblem& problem, const SmcSettings& settings)
+    : problem_(problem), settings_(validated(settings)) {
+  CHECK(problem_.scorer != nullptr);
+  beta_ = beta_of(settings_, problem_.scorer->optimum());
+  particle_count_ = settings_.particles;
+}
+
+const Individual& SmcEngine::best() const {
+  CHECK(steps_ > 0);
+  return best_;
+}
+
+std::span<const Individual> SmcEngine::population() const {
+  if (living_ > 0) return std::span(particles_).first(living_);
+  return steps_ > 0 ? std::span(&best_, 1) : std::span<const Individual>();
+}
+
+void SmcEngine::step() {
+  if (steps_ == 0) make_first_individual();
+  if (sweep_step_ == 0) {
+    begin_sweep();
+  } else if (sweep_step_ > settings_.most_steps) {
+    close_particles();
+  } else {
+    grow_particles();
+  }
+  ++sweep_step_;
+  score_grown();
+  sort_particles();
+  remember_best();
+  log_evidence_ = log_mean_ + log_sum(log_weights_) - natural_log(particle_count_);
+  const bool over = std::all_of(particles_.begin(), particles_.begin() + static_cast<std::ptrdiff_t>(living_),
+                                [](const Individual& particle) { return is_finished(particle.derivation); });
+  if (over) {
+    end_sweep();
+  } else {
+    resample_particles();
+  }
+  ++steps_;
+}
+
+void SmcEngine::make_first_individual() {
+  const StartSettings settings = {1, settings_.initial_length_min, settings_.initial_length_max, settings_.genes};
+  StartResult made = make_initial_population(problem_, settings, 0, {}, {});
+  best_ = std::move(made.individuals[0]);
+  evaluations_ += made.evaluations;
+  counts_.rejected_starts += made.rejected_starts;
+}
+
+void SmcEngine::begin_sweep() {
+  particles_.resize(particle_count_);
+  log_weights_.assign(particle_count_, 0);
+  living_ = particle_count_;
+  log_mean_ = 0;
+  grown_.clear();
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    RandomStream random({problem_.seed, Purpose::initial, problem_.lane, static_cast<std::uint32_t>(i + 1),
+                         static_cast<std::uint32_t>(steps_)});
+    particles_[i].derivation = seedling(*problem_.graph, random);
+    // As if it had scored 0 before: its first weight is exp(beta * score), or the score itself.
+    particles_[i].score = settings_.weight == ParticleWeight::ratio ? 1 : 0;
+    admit(i);
+  }
+}
+
+void SmcEngine::grow_particles() {
+  grown_.clear();
+  for (std::size_t i = 0; i < living_; ++i) {
+    Derivation& derivation = particles_[i].derivation;
+    if (is_finished(derivation)) continue;
+    RandomStream random({problem_.seed, Purpose::vary, problem_.lane, static_cast<std::uint32_t>(i),
+                         static_cast<std::uint32_t>(steps_)});
+    if (grow_open_slot(*problem_.graph, derivation, random, settings_.order, true) == GrowthStep::stuck) {
+      ++counts_.stuck_particles;
+      bury(i);
+    } else {
+      admit(i);
+    }
+  }
+}
+
+void SmcEngine::close_particles() {
+  grown_.clear();
+  for (std::size_t i = 0; i < living_; ++i) {
+    Derivation& derivation = particles_[i].derivation;
+    if (is_finished(derivation)) continue;
+    RandomStream random({problem_.seed, Purpose::close, problem_.lane, static_cast<std::uint32_t>(i),
+                         static_cast<std::uint32_t>(steps_)});
+    ++counts_.closed_particles;
+    if (close_open_slots(*problem_.graph, derivation, random)) {
+      admit(i);
+    } else {
+      ++counts_.stuck_particles;
+      bury(i);
+    }
+  }
+}
+
+/// To be scored, unless its genes are too many, or too few for good.
+void SmcEngine::admit(std::size_t particle) {
+  const Derivation& derivation = particles_[particle].derivation;
+  if (derivation.size() > settings_.genes.max) {
+    ++counts_.oversized_particles;
+    bury(particle);
+  } else if (derivation.size() < settings_.genes.min && is_finished(derivation)) {
+    ++counts_.undersized_particles;
+    bury(particle);
+  } else {
+    grown_.push_back(particle);
+  }
+}
+
+/// The dead keep their place until the particles are sorted.
+void SmcEngine::bury(std::size_t particle) {
+  particles_[particle].score = kNothing;
+  log_weights_[particle] = kNothing;
+}
+
+double SmcEngine::increment(double before, double after) const {
+  if (settings_.weight == ParticleWeight::exponential) return beta_ * (after - before);
+  if (!(after > 0)) {
+    throw Error(fmt::format("weight \"ratio\" needs scores above 0, got {} (use \"exponential\")", after));
+  }
+  return natural_log(after) - natural_log(before);
+}
+
+void SmcEngine::score_grown() {
+  batch_.clear();
+  for (const std::size_t i : grown_) batch_.push_back(&particles_[i].derivation);
+  scores_.resize(batch_.size());
+  if (!batch_.empty()) problem_.scorer->score(batch_, scores_);
+  evaluations_ += batch_.size();
+  for (std::size_t k = 0; k < grown_.size(); ++k) {
+    const std::size_t i = grown_[k];
+    if (scores_[k] == kNothing) {
+      ++counts_.rejected_particles;
+      bury(i);
+      continue;
+    }
+    CHECK(std::isfinite(scores_[k]));
+    log_weights_[i] += increment(particles_[i].score, scores_[k]);
+    particles_[i].score = scores_[k];
+  }
+}
+
+void SmcEngine::sort_particles() {
+  order_.resize(particles_.size());
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  std::sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) {
+    return particles_[a].score != particles_[b].score ? particles_[a].score > particles_[b].score : a < b;
+  });
+  scratch_.resize(particles_.size());
+  log_scratch_.resize(particles_.size());
+  for (std::size_t rank = 0; rank < order_.size(); ++rank) {
+    std::swap(scratch_[rank], particles_[order_[rank]]);
+    log_scratch_[rank] = log_weights_[order_[rank]];
+  }
+  particles_.swap(scratch_);
+  log_weights_.swap(log_scratch_);
+  while (living_ > 0 && particles_[living_ - 1].score == kNothing) --living_;
+}
+
+void SmcEngine::remember_best() {
+  for (std::size_t i = 0; i < living_ && particles_[i].score > best_.score; ++i) {
+    if (is_finished(particles_[i].derivation)) {
+      best_ = particles_[i];
+      return;
+    }
+    if (i == 0) consider_closed(particles_[i]);
+  }
+}
+
+void SmcEngine::consider_closed(const Individual& unfinished) {
+  Derivation closed = unfinished.derivation;
+  RandomStream random({problem_.seed, Purpose::close, problem_.lane, 0xffffffff, static_cast<std::uint32_t>(steps_)});
+  if (!close_open_slots(*problem_.graph, closed, random)) return;
+  if (closed.size() < settings_.genes.min || closed.size() > settings_.genes.max) return;
+  const Derivation* one[] = {&closed};
+  double score[1];
+  problem_.scorer->score(one, score);
+  ++evaluations_;
+  if (score[0] > best_.score) best_ = {std::move(closed), score[0]};
+}
+
+void SmcEngine::resample_particles() {
+  normalise(log_weights_, weights_);  // some particle lives: the sweep is not over
+  effective_ = effective_size(weights_);
+  if (settings_.resample_below < 1 && effective_ >= settings_.resample_below * particle_count_) return;
+  log_mean_ += log_sum(log_weights_) - natural_log(particle_count_);
+  RandomStream random({problem_.seed, Purpose::resample, problem_.lane, 0, static_cast<std::uint32_t>(steps_)});
+  resample(settings_.resampling, weights_, particle_count_, random, ancestors_);
+  scratch_.resize(particles_.size());
+  for (std::size_t i = 0; i < ancestors_.size(); ++i) scratch_[i] = particles_[ancestors_[i]];
+  particles_.swap(scratch_);
+  log_weights_.assign(particle_count_, 0);
+  living_ = particle_count_;
+  ++counts_.resamplings;
+}
+
+void SmcEngine::end_sweep() {
+  sweep_step_ = 0;
+  ++counts_.sweeps;
+  counts_.failed_sweeps += living_ == 0;
+  counts_.finished_particles += living_;
+  if (living_ > 0) {
+    normalise(log_weights_, weights_);
+    effective_ = effective_size(weights_);
+  }
+  const double next = std::ceil(particle_count_ * settings_.schedule);
+  particle_count_ = static_cast<std::uint32_t>(
+      std::min<double>(std::max(settings_.most_particles, settings_.particles), next));
+}
+
+}  // namespace espalier

@@ -1,0 +1,99 @@
+// Saving and loading sequential Monte Carlo.
+#include <istream>
+#include <ostream>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "search/engine_state.h"
+#include "search/smc.h"
+
+namespace espalier {
+namespace {
+
+constexpr std::uint64_t kMagic = 0x0a43'4d53'5053'45ull;  // the bytes "ESPSMC\n"
+constexpr std::uint64_t kStateVersion = 1;
+
+std::string fingerprint(const SearchProblem& problem, const SmcSettings& s, double beta) {
+  return fmt::format("{} {} seed {} lane {} particles {} schedule {}..{} steps {} resample {} below {} weight {} beta {} "
+                     "length {}..{} genes {}..{} locks {}",
+                     s.order == SlotOrder::random ? "sosmc" : "smc", problem.graph->source_hash, problem.seed,
+                     problem.lane, s.particles, s.schedule, s.most_particles, s.most_steps, name_of(s.resampling),
+                     s.resample_below, static_cast<int>(s.weight), beta, s.initial_length_min, s.initial_length_max,
+                     s.genes.min, s.genes.max, problem.locks.size());
+}
+
+struct Entry {
+  const char* name;
+  std::uint64_t SmcCounts::*member;
+};
+constexpr Entry kEntries[] = {
+    {"sweeps", &SmcCounts::sweeps},
+    {"failed sweeps", &SmcCounts::failed_sweeps},
+    {"resamplings", &SmcCounts::resamplings},
+    {"finished particles", &SmcCounts::finished_particles},
+    {"closed particles", &SmcCounts::closed_particles},
+    {"stuck particles", &SmcCounts::stuck_particles},
+    {"oversized particles", &SmcCounts::oversized_particles},
+    {"undersized particles", &SmcCounts::undersized_particles},
+    {"rejected particles", &SmcCounts::rejected_particles},
+    {"rejected starts", &SmcCounts::rejected_starts},
+};
+
+}  // namespace
+
+std::vector<NamedCount> SmcEngine::diagnostics() const {
+  std::vector<NamedCount> all;
+  for (const Entry& entry : kEntries) all.push_back({entry.name, counts_.*entry.member});
+  return all;
+}
+
+void SmcEngine::save(std::ostream& out) const {
+  StateWriter writer(out);
+  write_head(writer, kMagic, kStateVersion, fingerprint(problem_, settings_, beta_));
+  for (const std::uint64_t value : {steps_, evaluations_, sweep_step_, std::uint64_t{particle_count_}}) writer.u64(value);
+  for (const double value : {log_evidence_, log_mean_, effective_}) writer.f64(value);
+  for (const Entry& entry : kEntries) writer.u64(counts_.*entry.member);
+  writer.u64(living_);
+  if (steps_ == 0) return;
+  write_individual(writer, best_);
+  for (std::size_t i = 0; i < living_; ++i) {
+    writer.f64(log_weights_[i]);
+    write_individual(writer, particles_[i]);
+  }
+}
+
+void SmcEngine::load(std::istream& in) {
+  StateReader reader(in);
+  read_head(reader, kMagic, kStateVersion, fingerprint(problem_, settings_, beta_));
+  const std::uint64_t steps = reader.u64(), evaluations = reader.u64(), sweep_step = reader.u64();
+  const std::uint64_t particles = reader.u64_at_most(1'000'000, "particles");
+  const double log_evidence = reader.f64(), log_mean = reader.f64(), effective = reader.f64();
+  SmcCounts counts;
+  for (const Entry& entry : kEntries) counts.*entry.member = reader.u64();
+  const std::uint64_t living = reader.u64_at_most(1'000'000, "particles");
+  Individual best;
+  std::vector<Individual> individuals;
+  std::vector<double> log_weights;
+  if (steps > 0) best = read_individual(reader, *problem_.graph);
+  for (std::uint64_t i = 0; steps > 0 && i < living; ++i) {
+    log_weights.push_back(reader.f64());
+    individuals.push_back(read_individual(reader, *problem_.graph));
+  }
+
+  steps_ = steps, evaluations_ = evaluations, sweep_step_ = sweep_step;
+  particle_count_ = static_cast<std::uint32_t>(particles);
+  log_evidence_ = log_evidence, log_mean_ = log_mean, effective_ = effective;
+  counts_ = counts;
+  best_ = std::move(best);
+  living_ = individuals.size();
+  particles_ = std::move(individuals);
+  log_weights_ = std::move(log_weights);
+  if (sweep_step_ == 0) return;
+  // The dead of a sweep that goes on are nameless: only their number matters.
+  particles_.resize(particle_count_);
+  log_weights_.resize(particle_count_);
+  for (std::size_t i = living_; i < particles_.size(); ++i) bury(i);
+}
+
+}  // namespace espalier
