@@ -31,8 +31,17 @@ GrowthFault Growth::push(const GeneratorGraph& graph, EdgeId edge, RandomStream&
   return GrowthFault::none;
 }
 
+/// What the grammar computes it from are the genes above the parent, which is the top of the stack.
+double Growth::fill_probability_at(const Frame& frame, const Edge& edge) {
+  above_.leave(*frame.rule);
+  const double p = fill_probability(edge, above_.counts());
+  above_.enter(*frame.rule);
+  return p;
+}
+
 GrowthFault Growth::append(const GeneratorGraph& graph, EdgeId edge, const DepthCounts& above, RandomStream& random,
-                           LimitLedger& ledger, Derivation& out, std::uint32_t most_genes) {
+                           LimitLedger& ledger, Derivation& out, std::uint32_t most_genes,
+                           OptionalSlots optional) {
   stack_.clear();
   above_.reset(above);
   writer_.begin(out);
@@ -49,7 +58,10 @@ GrowthFault Growth::append(const GeneratorGraph& graph, EdgeId edge, const Depth
     const EdgeId child = top.rule->slots[top.variant->slots[top.slot]].edge;
     SlotState& state = out.slots[top.slots + top.slot++];
     if (state == SlotState::absent) continue;
-    state = graph.edges[child].required ? SlotState::filled : SlotState::empty;
+    const Edge& way = graph.edges[child];
+    const bool fill = way.required ||
+                      (optional == OptionalSlots::by_prior && random.chance(fill_probability_at(top, way)));
+    state = fill ? SlotState::filled : SlotState::empty;
     if (state == SlotState::empty) continue;
     if (out.genes.size() - first >= most_genes) return GrowthFault::too_big;
     fault = push(graph, child, random, ledger, out);

@@ -24,15 +24,21 @@ void append_open_slots(const GeneratorGraph& graph, const Rule& rule, const Vari
 /// Appends a variant's draws, fresh.
 void append_draws(const Variant& variant, RandomStream& random, std::vector<std::uint32_t>& draws);
 
+enum class OptionalSlots : std::uint8_t {
+  empty,
+  by_prior,  // filled with their probability: the subtree is a draw from the prior
+};
+
 class Growth {
  public:
   static constexpr std::uint32_t kMostGenes = 100'000;
 
-  /// Grows a gene in a slot of `edge`, with its required descendants, depth-first; optional slots are empty. Appends
+  /// Grows a gene in a slot of `edge`, with its descendants, depth-first; `optional` says of which slots. Appends
   /// the subtree to `out` and counts it into `ledger`; both are left half done if there is a fault. The guard of the
   /// gene itself must hold. `above` counts the genes above it.
   GrowthFault append(const GeneratorGraph& graph, EdgeId edge, const DepthCounts& above, RandomStream& random,
-                     LimitLedger& ledger, Derivation& out, std::uint32_t most_genes = kMostGenes);
+                     LimitLedger& ledger, Derivation& out, std::uint32_t most_genes = kMostGenes,
+                     OptionalSlots optional = OptionalSlots::empty);
 
  private:
   struct Frame {
@@ -44,6 +50,7 @@ class Growth {
 
   GrowthFault push(const GeneratorGraph& graph, EdgeId edge, RandomStream& random, LimitLedger& ledger,
                    Derivation& out);
+  double fill_probability_at(const Frame& frame, const Edge& edge);
 
   std::vector<Frame> stack_;
   DepthCounter above_;  // of the next gene to be pushed

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "derivation/lock_map.h"
+#include "derivation/position.h"
 
 namespace espalier {
 namespace {
@@ -25,9 +26,11 @@ struct Workspace {
 /// In units of 2^-32; triangular over (-scale, scale), never 0.
 std::int64_t draw_step(const DrawComponent& component, RandomStream& random) {
   const std::uint32_t halvings = 1 + random.below(kScales);
-  const auto a = static_cast<std::int64_t>(random.next_u32()), b = static_cast<std::int64_t>(random.next_u32());
-  std::int64_t step = (a - b) / (std::int64_t{1} << halvings);
-  if (step == 0) step = 1;
+  std::int64_t step = 0;
+  while (step == 0) {  // forwards and backwards alike: samplers count on it
+    const auto a = static_cast<std::int64_t>(random.next_u32()), b = static_cast<std::int64_t>(random.next_u32());
+    step = (a - b) / (std::int64_t{1} << halvings);
+  }
   if (component.shape == DrawShape::discrete && component.values > 1) {
     const std::int64_t plateau = kOne / component.values;
     step = step < 0 ? std::min(step, -plateau) : std::max(step, plateau);
@@ -41,6 +44,13 @@ std::uint32_t moved(std::uint32_t quantile, std::int64_t step, DrawShape shape) 
   if (u < 0) u = -u - 1;
   if (u >= kOne) u = 2 * kOne - 1 - u;
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(u, 0, kOne - 1));
+}
+
+void nudge_one(const Place& place, Derivation& derivation, RandomStream& random) {
+  const std::uint32_t which = random.below(static_cast<std::uint32_t>(place.variant->draws.size()));
+  const DrawComponent& component = place.rule->draws[place.variant->draws[which]];
+  std::uint32_t& quantile = derivation.draws[place.first_draw + which];
+  quantile = moved(quantile, draw_step(component, random), component.shape);
 }
 
 }  // namespace
@@ -59,12 +69,15 @@ bool nudge(const GeneratorGraph& graph, Derivation& derivation, const Locks& loc
     draw += count;
   }
   if (work.places.empty()) return false;
-  const Place& place = work.places[random.below(static_cast<std::uint32_t>(work.places.size()))];
-  const std::uint32_t which = random.below(static_cast<std::uint32_t>(place.variant->draws.size()));
-  const DrawComponent& component = place.rule->draws[place.variant->draws[which]];
-  std::uint32_t& quantile = derivation.draws[place.first_draw + which];
-  quantile = moved(quantile, draw_step(component, random), component.shape);
+  nudge_one(work.places[random.below(static_cast<std::uint32_t>(work.places.size()))], derivation, random);
   return true;
+}
+
+void nudge_gene(const GeneratorGraph& graph, Derivation& derivation, std::uint32_t gene, RandomStream& random) {
+  static thread_local GenePath path;
+  locate(graph, derivation, gene, path);
+  const Rule& rule = rule_of(graph, derivation.genes[gene]);
+  nudge_one({path.gene.draw, &rule, &rule.variants[derivation.genes[gene].variant]}, derivation, random);
 }
 
 }  // namespace espalier

@@ -40,7 +40,7 @@ inline std::shared_ptr<const GeneratorGraph> tiny_graph(std::uint32_t most_buds 
   return with_bones(b.build());
 }
 
-/// Buds are good, forks cost, and many genes cost more and more.
+/// Buds are good, forks cost, many genes cost more and more; every draw gives its quantile, in 0..1, besides.
 inline double tiny_score(std::size_t genes, std::size_t buds, std::size_t forks) {
   const auto n = static_cast<double>(genes);
   return 0.9 * static_cast<double>(buds) - 0.5 * static_cast<double>(forks) - 0.05 * n * n;
@@ -52,7 +52,9 @@ inline double tiny_score(const GeneratorGraph& graph, const Derivation& derivati
     buds += graph.edges[gene.edge].child == 2;
     forks += graph.edges[gene.edge].child == 1 && gene.variant == 1;
   }
-  return tiny_score(derivation.size(), buds, forks);
+  double draws = 0;
+  for (const std::uint32_t draw : derivation.draws) draws += draw * 0x1p-32;
+  return tiny_score(derivation.size(), buds, forks) + draws;
 }
 
 class TinyScorer final : public BatchScorer {
@@ -83,7 +85,10 @@ inline std::map<std::string, double> tiny_posterior(const GeneratorGraph& graph,
     const auto found = one.genes.find(2);
     const std::size_t buds = found == one.genes.end() ? 0 : found->second;
     if (!within || genes > most_genes) continue;
-    density[one.key] += one.probability * std::exp(beta * tiny_score(genes, buds, forks));
+    // Each Twig has a draw u: the integral of exp(beta u) over 0..1.
+    const auto twigs = one.genes.find(1);
+    const double draws = std::pow((std::exp(beta) - 1) / beta, twigs == one.genes.end() ? 0 : twigs->second);
+    density[one.key] += one.probability * std::exp(beta * tiny_score(genes, buds, forks)) * draws;
   }
   return density;
 }
