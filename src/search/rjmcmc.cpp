@@ -1,0 +1,214 @@
+#include "search/rjmcmc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/check.h"
+#include "base/natural_exp.h"
+#include "base/natural_log.h"
+#include "derivation/nudge.h"
+#include "search/initial_population.h"
+
+namespace espalier {
+namespace {
+
+constexpr double kNothing = -std::numeric_limits<double>::infinity();
+
+RjmcmcSettings validated(const RjmcmcSettings& settings) {
+  validate(settings);
+  return settings;
+}
+
+double beta_of(const RjmcmcSettings& settings, double optimum) {
+  if (settings.temperature) return 1 / *settings.temperature;
+  return optimum > 0 && std::isfinite(optimum) ? 1000 / optimum : 1;
+}
+
+/// Chance that a proposal drawn from the prior is accepted.
+double acceptance(double beta, double score_before, double score_after) {
+  return std::min(1.0, natural_exp(beta * (score_after - score_before)));
+}
+
+}  // namespace
+
+RjmcmcEngine::RjmcmcEngine(const SearchProblem& problem, const RjmcmcSettings& settings)
+    : problem_(problem), settings_(validated(settings)) {
+  CHECK(problem_.scorer != nullptr);
+  beta_ = beta_of(settings_, problem_.scorer->optimum());
+  counts_.resize(settings_.temperatures);
+  swaps_.resize(settings_.temperatures - 1);
+}
+
+const Individual& RjmcmcEngine::best() const {
+  CHECK(steps_ > 0);
+  return best_;
+}
+
+double RjmcmcEngine::beta(std::uint32_t rung) const {
+  const double coolings = static_cast<double>(steps_ / settings_.anneal_every);
+  const double cooled = std::min(natural_exp(natural_log(settings_.anneal) * coolings), settings_.anneal_most);
+  if (rung == 0) return beta_ * cooled;
+  return beta_ * cooled * natural_exp(-natural_log(settings_.heat) * rung / (settings_.temperatures - 1));
+}
+
+void RjmcmcEngine::step() {
+  if (steps_ == 0) {
+    make_initial_states();
+  } else {
+    propose();
+    score_made();
+    decide();
+    if (settings_.delayed) {
+      propose_delayed();
+      score_made();
+      decide();
+    }
+    if (settings_.swap_every > 0 && steps_ % settings_.swap_every == 0) swap_rungs();
+  }
+  sort_states();
+  if (steps_ == 0 || states_.front().score > best_.score) best_ = states_.front();
+  ++steps_;
+}
+
+void RjmcmcEngine::make_initial_states() {
+  const StartSettings settings = {settings_.chains, settings_.initial_length_min, settings_.initial_length_max,
+                                  settings_.genes};
+  StartResult made = make_initial_population(problem_, settings, 0, {}, {});
+  states_ = std::move(made.individuals);
+  evaluations_ += made.evaluations;
+  rejected_starts_ += made.rejected_starts;
+  chain_of_.resize(states_.size());
+  std::iota(chain_of_.begin(), chain_of_.end(), 0u);
+}
+
+ProposalKind RjmcmcEngine::draw_kind(RandomStream& random) const {
+  const double shares[] = {settings_.draws, settings_.nudges, settings_.slots, settings_.jumps};
+  double rest = random.next_unit() * std::accumulate(std::begin(shares), std::end(shares), 0.0);
+  std::size_t kind = 0, last = 3;
+  while (shares[last] <= 0) --last;
+  while (kind < last && rest >= shares[kind]) rest -= shares[kind++];
+  return static_cast<ProposalKind>(kind);
+}
+
+bool RjmcmcEngine::within_limits(const Derivation& derivation) const {
+  return derivation.size() >= settings_.genes.min && derivation.size() <= settings_.genes.max;
+}
+
+void RjmcmcEngine::propose() {
+  tries_.resize(states_.size());
+  proposals_.resize(states_.size());
+  const GeneratorGraph& graph = *problem_.graph;
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    Try& one = tries_[i];
+    one.random = RandomStream({problem_.seed, Purpose::propose, problem_.lane, chain_of_[i],
+                               static_cast<std::uint32_t>(steps_)});
+    one.kind = draw_kind(one.random);
+    Derivation& next = proposals_[i];
+    next = states_[i].derivation;
+    const PlaceChoice choice = settings_.choice;
+    const std::uint32_t most = settings_.genes.max;
+    std::optional<double> ratio;
+    if (one.kind == ProposalKind::jumps) {
+      ratio = propose_jump(graph, next, problem_.locks, choice, most, one.random);
+    } else if (one.kind == ProposalKind::slots) {
+      ratio = propose_slot(graph, next, problem_.locks, choice, most, one.random);
+    } else {
+      const DrawStep step = one.kind == ProposalKind::nudges ? DrawStep::local : DrawStep::fresh;
+      ratio = propose_draws(graph, next, problem_.locks, choice, step, one.random, &one.gene);
+    }
+    one.made = ratio && within_limits(next);
+    one.log_ratio = ratio.value_or(0);
+    ++counts_[rung_of(i)][static_cast<std::size_t>(one.kind)].proposed;
+  }
+}
+
+void RjmcmcEngine::propose_delayed() {
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    Try& one = tries_[i];
+    if (!one.made) continue;  // it was accepted, or nothing was proposed
+    one.made = one.kind == ProposalKind::draws;
+    if (!one.made) continue;
+    one.kind = ProposalKind::delayed;
+    one.rejected_score = one.score;
+    proposals_[i] = states_[i].derivation;
+    nudge_gene(*problem_.graph, proposals_[i], one.gene, one.random);
+    ++counts_[rung_of(i)][static_cast<std::size_t>(one.kind)].proposed;
+  }
+}
+
+void RjmcmcEngine::score_made() {
+  batch_.clear();
+  batch_places_.clear();
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (!tries_[i].made) continue;
+    batch_.push_back(&proposals_[i]);
+    batch_places_.push_back(i);
+  }
+  scores_.resize(batch_.size());
+  if (!batch_.empty()) problem_.scorer->score(batch_, scores_);
+  evaluations_ += batch_.size();
+  for (std::size_t k = 0; k < batch_.size(); ++k) {
+    CHECK(scores_[k] == kNothing || std::isfinite(scores_[k]));
+    tries_[batch_places_[k]].score = scores_[k];
+  }
+}
+
+double RjmcmcEngine::log_acceptance(std::size_t place) const {
+  const Try& one = tries_[place];
+  const double b = beta(rung_of(place)), before = states_[place].score;
+  const double plain = one.log_ratio + b * (one.score - before);
+  if (one.kind != ProposalKind::delayed || one.score == kNothing) return plain;
+  // The way back would have been rejected first too: fresh draws are as likely from either side.
+  const double there = 1 - acceptance(b, before, one.rejected_score);
+  const double back = 1 - acceptance(b, one.score, one.rejected_score);
+  return plain + natural_log(back) - natural_log(there);
+}
+
+/// Accepts or rejects what was scored; of the accepted, `made` is cleared.
+void RjmcmcEngine::decide() {
+  for (const std::size_t i : batch_places_) {
+    Try& one = tries_[i];
+    const double u = one.random.next_unit();
+    if (!(u < natural_exp(log_acceptance(i)))) continue;
+    std::swap(states_[i].derivation, proposals_[i]);
+    states_[i].score = one.score;
+    ++counts_[rung_of(i)][static_cast<std::size_t>(one.kind)].accepted;
+    one.made = false;
+  }
+}
+
+void RjmcmcEngine::swap_rungs() {
+  std::vector<std::size_t> place_of(states_.size());
+  for (std::size_t i = 0; i < chain_of_.size(); ++i) place_of[chain_of_[i]] = i;
+  const std::uint32_t first = static_cast<std::uint32_t>(steps_ / settings_.swap_every) % 2;
+  for (std::uint32_t chain = 0; chain + 1 < chain_of_.size(); ++chain) {
+    const std::uint32_t rung = chain % settings_.temperatures;
+    if (rung % 2 != first || rung + 1 == settings_.temperatures) continue;
+    RandomStream random({problem_.seed, Purpose::swap, problem_.lane, chain, static_cast<std::uint32_t>(steps_)});
+    std::size_t& cold = place_of[chain];
+    std::size_t& hot = place_of[chain + 1];
+    const double log_ratio = (beta(rung) - beta(rung + 1)) * (states_[hot].score - states_[cold].score);
+    ++swaps_[rung].proposed;
+    if (!(random.next_unit() < natural_exp(log_ratio))) continue;
+    ++swaps_[rung].accepted;
+    std::swap(chain_of_[cold], chain_of_[hot]);
+    std::swap(cold, hot);
+  }
+}
+
+void RjmcmcEngine::sort_states() {
+  // Few change places from step to step: insertion.
+  for (std::size_t i = 1; i < states_.size(); ++i) {
+    const auto after = [this](std::size_t a, std::size_t b) {
+      return states_[a].score != states_[b].score ? states_[a].score < states_[b].score : chain_of_[a] > chain_of_[b];
+    };
+    for (std::size_t j = i; j > 0 && after(j - 1, j); --j) {
+      std::swap(states_[j - 1], states_[j]);
+      std::swap(chain_of_[j - 1], chain_of_[j]);
+    }
+  }
+}
+
+}  // namespace espalier

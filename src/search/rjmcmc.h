@@ -1,0 +1,101 @@
+#pragma once
+// Reversible-jump Markov chain Monte Carlo over derivations (Talton et al. 2011; ShapeGenetics 2017, section 7). Every
+// step each chain makes one proposal (derivation/proposal.h) and accepts it with the probability that leaves
+//
+//     prior(derivation) * exp(beta * score), restricted to what is acceptable,
+//
+// as it is, where beta = 1 / temperature of its rung. Ladders of temperatures swap their states (parallel tempering):
+// the hot move freely, the cold hold on to what is good. Annealing cools all rungs by steps.
+//
+// Delayed rejection (Tierney and Mira 1999; Green and Mira 2001): when fresh draws of a gene are rejected, a nudge of
+// that gene is tried, accepted with the probability that keeps the same distribution.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "search/engine.h"
+#include "search/rjmcmc_settings.h"
+
+namespace espalier {
+
+enum class ProposalKind : std::uint8_t { draws, nudges, slots, jumps, delayed };
+inline constexpr std::size_t kProposalKinds = 5;
+
+struct ProposalCount {
+  std::uint64_t proposed = 0, accepted = 0;
+
+  bool operator==(const ProposalCount&) const = default;
+};
+
+class RjmcmcEngine final : public Engine {
+ public:
+  /// Throws Error for bad settings.
+  RjmcmcEngine(const SearchProblem& problem, const RjmcmcSettings& settings);
+  RjmcmcEngine(const RjmcmcEngine&) = delete;
+  RjmcmcEngine& operator=(const RjmcmcEngine&) = delete;
+
+  /// The first throws Error as the genetic algorithm does, where no acceptable individuals can be made.
+  void step() override;
+  std::uint64_t steps() const override { return steps_; }
+  std::uint64_t evaluations() const override { return evaluations_; }
+  /// The states of the chains.
+  std::span<const Individual> population() const override { return states_; }
+  const Individual& best() const override;
+  std::vector<NamedCount> diagnostics() const override;
+  void save(std::ostream& out) const override;
+  void load(std::istream& in) override;
+
+  /// 1 / temperature of a rung now; rung 0 is the coldest.
+  double beta(std::uint32_t rung) const;
+  /// The rung of the chain whose state is population()[place].
+  std::uint32_t rung_of(std::size_t place) const { return chain_of_[place] % settings_.temperatures; }
+  /// Proposals by rung and kind. A proposal that does not exist or breaks a limit counts as rejected.
+  const ProposalCount& count(std::uint32_t rung, ProposalKind kind) const {
+    return counts_[rung][static_cast<std::size_t>(kind)];
+  }
+  /// Tries to swap rung and rung + 1.
+  const ProposalCount& swaps(std::uint32_t rung) const { return swaps_[rung]; }
+
+ private:
+  /// What a chain does in this step.
+  struct Try {
+    ProposalKind kind = ProposalKind::draws;
+    std::uint32_t gene = 0;   // draws: whose
+    double log_ratio = 0;
+    double score = 0;         // of the proposal
+    double rejected_score = 0;  // delayed: of what was rejected before
+    bool made = false;
+    RandomStream random{StreamKey{}};
+  };
+
+  void make_initial_states();
+  void propose();
+  void propose_delayed();
+  void score_made();
+  double log_acceptance(std::size_t place) const;
+  bool within_limits(const Derivation& derivation) const;
+  ProposalKind draw_kind(RandomStream& random) const;
+  void decide();
+  void swap_rungs();
+  void sort_states();
+
+
+  SearchProblem problem_;
+  RjmcmcSettings settings_;
+  double beta_ = 1;  // of the coldest rung, before annealing
+  std::uint64_t steps_ = 0, evaluations_ = 0, rejected_starts_ = 0;
+  std::vector<std::array<ProposalCount, kProposalKinds>> counts_;  // per rung
+  std::vector<ProposalCount> swaps_;                               // per rung but the last
+  Individual best_;
+  std::vector<Individual> states_;       // best first, equal ones by chain
+  std::vector<std::uint32_t> chain_of_;  // of each state
+
+  std::vector<Try> tries_;               // per state
+  std::vector<Derivation> proposals_;    // per state
+  std::vector<const Derivation*> batch_;
+  std::vector<std::size_t> batch_places_;
+  std::vector<double> scores_;
+};
+
+}  // namespace espalier
