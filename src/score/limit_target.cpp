@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/check.h"
+#include "derivation/sample.h"
 
 namespace espalier {
 namespace {
@@ -37,6 +38,12 @@ PerMeasure<bool> limited(const Limits& limits) {
   return wanted;
 }
 
+/// Growth never takes genes away; all else may still rise or fall, since what open slots show goes when they are decided.
+bool may_still_be_accepted(Measure measure, const Limit& limit, double value) {
+  const bool only_rises = measure == Measure::genes || measure == Measure::depth;
+  return !only_rises || !limit.max || value <= *limit.max;
+}
+
 }  // namespace
 
 LimitTarget::LimitTarget(const Limits& limits, const MeshTable& meshes, VolumeView view)
@@ -63,12 +70,13 @@ std::unique_ptr<TargetScratch> LimitTarget::make_scratch() const { return std::m
 double LimitTarget::score(const Derivation& derivation, const Model& model, TargetScratch* scratch) const {
   LimitScratch& s = scratch_of(scratch);
   gauge_.measure(derivation, model, s.gauge, s.values);
+  const bool growing = may_reject_ && !is_finished(derivation);
   double sum = 0;
   bool rejected = false;
   for (const Measure measure : measures_) {
     const double value = s.values[measure];
     sum -= limits_[measure].cost(value);
-    if (limits_[measure].accepts(value)) continue;
+    if (growing ? may_still_be_accepted(measure, limits_[measure], value) : limits_[measure].accepts(value)) continue;
     rejected = true;
     Tally& tally = s.rejected[measure];
     ++tally.count;

@@ -26,7 +26,8 @@ class LimitTarget final : public Target {
   TargetView view() const override;
   bool may_reject() const override { return may_reject_; }
   std::unique_ptr<TargetScratch> make_scratch() const override;
-  /// Minus the sum of what the ramps cost; -infinity for a model beyond a hard bound.
+  /// Minus the sum of what the ramps cost; -infinity for a model beyond a hard bound. Where slots are still open, only
+  /// beyond one that growth cannot mend.
   double score(const Derivation& derivation, const Model& model, TargetScratch* scratch) const override;
   double optimum() const override { return 0; }
   /// A term per measure, with its value.

@@ -16,6 +16,11 @@
 
 namespace espalier {
 
+struct Individual {
+  Derivation derivation;
+  double score = 0;  // higher is better
+};
+
 /// What every engine is given. The scorer must outlive the engine.
 struct SearchProblem {
   std::shared_ptr<const GeneratorGraph> graph;
@@ -23,11 +28,9 @@ struct SearchProblem {
   BatchScorer* scorer = nullptr;
   std::uint64_t seed = 0;
   std::uint32_t lane = 0;  // of the random streams: engine or island, below 2^24
-};
-
-struct Individual {
-  Derivation derivation;
-  double score = 0;  // higher is better
+  /// Individuals to start from, best first: another engine's population, or one that a person likes. Finished, scored
+  /// and acceptable, within the gene limits. Where there are locks, they hold for these.
+  std::vector<Individual> founders = {};
 };
 
 /// One of an engine's own figures: a running total since the first step.

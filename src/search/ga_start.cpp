@@ -13,8 +13,9 @@ void GaEngine::begin_population() {
   const StartSettings settings = {settings_.population, settings_.initial_length_min, settings_.initial_length_max,
                                   settings_.genes};
   const std::span<const Individual> champions = champions_;
-  StartResult made =
-      make_initial_population(problem_, settings, epoch_, champions.first(reunion ? champions.size() : 0), champions);
+  std::span<const Individual> founders = champions.first(reunion ? champions.size() : 0);
+  if (steps_ == 0) founders = problem_.founders;
+  StartResult made = make_initial_population(problem_, settings, epoch_, founders, champions);
   newcomers_ = std::move(made.individuals);
   evaluations_ += made.evaluations;
   counts_.short_starts += made.short_starts;

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "derivation/moves.h"
 #include "derivation/sample.h"
+#include "derivation/strip.h"
 
 namespace espalier {
 namespace {
@@ -29,6 +30,7 @@ class Maker {
   StartResult run(std::span<const Individual> founders, std::span<const Individual> stand_ins);
 
  private:
+  Derivation begin_one(std::size_t place, RandomStream& random) const;
   bool grow_one(std::size_t place);
   void score();
   void copy(std::span<const Individual> stand_ins);
@@ -42,6 +44,16 @@ class Maker {
   StartResult made_;
 };
 
+Derivation Maker::begin_one(std::size_t place, RandomStream& random) const {
+  const GeneratorGraph& graph = *problem_.graph;
+  if (!problem_.locks.empty() && !problem_.founders.empty()) {
+    return stripped(graph, problem_.founders[place % problem_.founders.size()].derivation, problem_.locks);
+  }
+  Derivation start = seedling(graph, random);
+  close_open_slots(graph, start, random);
+  return start;
+}
+
 bool Maker::grow_one(std::size_t place) {
   const bool as_asked = round_ <= kRoundsAsAsked;
   const std::uint32_t shortest = as_asked ? settings_.length_min : 1;
@@ -53,8 +65,7 @@ bool Maker::grow_one(std::size_t place) {
     const auto index = static_cast<std::uint32_t>(place);
     RandomStream random({problem_.seed, Purpose::initial, problem_.lane, index, epoch_ * kMostStarts + attempt});
     const std::uint32_t length = low + random.below(high - low + 1);
-    start = seedling(*problem_.graph, random);
-    close_open_slots(*problem_.graph, start, random);
+    start = begin_one(place, random);
     while (start.size() < length && grow(*problem_.graph, start, problem_.locks, random)) {}
     // Required slots bring several genes at once, so the limits may be overshot.
     if (start.size() < settings_.genes.min || start.size() > settings_.genes.max) continue;

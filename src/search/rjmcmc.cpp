@@ -75,7 +75,7 @@ void RjmcmcEngine::step() {
 void RjmcmcEngine::make_initial_states() {
   const StartSettings settings = {settings_.chains, settings_.initial_length_min, settings_.initial_length_max,
                                   settings_.genes};
-  StartResult made = make_initial_population(problem_, settings, 0, {}, {});
+  StartResult made = make_initial_population(problem_, settings, 0, problem_.founders, {});
   states_ = std::move(made.individuals);
   evaluations_ += made.evaluations;
   rejected_starts_ += made.rejected_starts;

@@ -10,6 +10,7 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "base/natural_log.h"
+#include "derivation/strip.h"
 #include "search/initial_population.h"
 
 namespace espalier {
@@ -72,10 +73,19 @@ void SmcEngine::step() {
 
 void SmcEngine::make_first_individual() {
   const StartSettings settings = {1, settings_.initial_length_min, settings_.initial_length_max, settings_.genes};
-  StartResult made = make_initial_population(problem_, settings, 0, {}, {});
+  StartResult made = make_initial_population(problem_, settings, 0, problem_.founders, {});
   best_ = std::move(made.individuals[0]);
   evaluations_ += made.evaluations;
   counts_.rejected_starts += made.rejected_starts;
+}
+
+/// Of founders, what is empty grows on; where there are locks, all that these do not hold is grown anew.
+Derivation SmcEngine::begin_particle(std::size_t particle, RandomStream& random) const {
+  if (problem_.founders.empty()) return seedling(*problem_.graph, random);
+  Derivation start = problem_.founders[particle % problem_.founders.size()].derivation;
+  if (!problem_.locks.empty()) start = stripped(*problem_.graph, start, problem_.locks);
+  reopen(*problem_.graph, start, problem_.locks);
+  return start;
 }
 
 void SmcEngine::begin_sweep() {
@@ -87,7 +97,7 @@ void SmcEngine::begin_sweep() {
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     RandomStream random({problem_.seed, Purpose::initial, problem_.lane, static_cast<std::uint32_t>(i + 1),
                          static_cast<std::uint32_t>(steps_)});
-    particles_[i].derivation = seedling(*problem_.graph, random);
+    particles_[i].derivation = begin_particle(i, random);
     // As if it had scored 0 before: its first weight is exp(beta * score), or the score itself.
     particles_[i].score = settings_.weight == ParticleWeight::ratio ? 1 : 0;
     admit(i);

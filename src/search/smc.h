@@ -9,7 +9,8 @@
 // weighted, and the product of mean weights is an unbiased estimate of its integral. Then another sweep begins.
 //
 // What growth cannot mend weighs nothing: more genes than the limits allow, and what the scorer finds not acceptable.
-// Unfinished particles are scored as they stand: open slots show their `otherwise`.
+// Unfinished particles are scored as they stand: open slots show their `otherwise`. Where there are founders, sweeps begin
+// with them instead of one gene, and the rest of the distribution is what grows from there.
 
 #include <cstdint>
 #include <vector>
@@ -66,6 +67,7 @@ class SmcEngine final : public Engine {
 
  private:
   void make_first_individual();
+  Derivation begin_particle(std::size_t particle, RandomStream& random) const;
   void begin_sweep();
   void grow_particles();
   void close_particles();

@@ -159,6 +159,25 @@ TEST(LimitTarget, RejectsBeyondBoundsAndRemembersWhat) {
   EXPECT_EQ(rejections[1].highest, 8);
 }
 
+TEST(LimitTarget, RejectsUnfinishedModelsOnlyForWhatGrowthCannotMend) {
+  Limits limits;
+  limits[Measure::genes] = {.min = 5, .max = 8};
+  limits[Measure::height] = {.min = 2, .max = 4};
+  const LimitTarget target(limits, test_meshes(), VolumeView::full);
+  const auto score = [&](std::size_t n, float height, SlotState last) {
+    Derivation derivation = genes(n);
+    derivation.slots = {SlotState::empty, last};
+    return score_of(target, derivation, tower(height));
+  };
+  EXPECT_EQ(score(3, 3, SlotState::empty), -kInfinity);
+  EXPECT_EQ(score(3, 3, SlotState::open), 0);
+  EXPECT_EQ(score(6, 1, SlotState::empty), -kInfinity);
+  EXPECT_EQ(score(6, 1, SlotState::open), 0);
+  EXPECT_EQ(score(6, 5, SlotState::open), 0) << "an open slot may show what goes when it is decided";
+  EXPECT_EQ(score(9, 3, SlotState::open), -kInfinity);
+  EXPECT_EQ(score(6, 3, SlotState::filled), 0);
+}
+
 TEST(LimitTarget, AsksForAsMuchModelAsItsLimitsNeed) {
   const auto view_of = [](Measure measure, VolumeView view) {
     return LimitTarget(one(measure, {.max = 1}), test_meshes(), view).view();
