@@ -9,6 +9,12 @@
 
 namespace espalier {
 
+std::string fingerprint(std::string_view engine, const SearchProblem& problem, const std::string& settings) {
+  return fmt::format("{} {} seed {} lane {} optimum {} locks {} founders {} {}", engine, problem.graph->source_hash,
+                     problem.seed, problem.lane, problem.scorer->optimum(), problem.locks.size(),
+                     problem.founders.size(), settings);
+}
+
 void write_head(StateWriter& writer, std::uint64_t magic, std::uint64_t version, const std::string& fingerprint) {
   writer.u64(magic);
   writer.u64(version);

@@ -8,7 +8,8 @@
 
 namespace espalier {
 
-/// `fingerprint`: everything that must be equal for a continued search to be the same search.
+/// Everything that must be equal for a continued search to be the same search; `settings` in words.
+std::string fingerprint(std::string_view engine, const SearchProblem& problem, const std::string& settings);
 void write_head(StateWriter& writer, std::uint64_t magic, std::uint64_t version, const std::string& fingerprint);
 /// Throws Error where any of them is another.
 void read_head(StateReader& reader, std::uint64_t magic, std::uint64_t version, const std::string& fingerprint);

@@ -36,6 +36,8 @@ struct GaSettings {
 
 /// Throws Error stating the first rule broken, with setting and value.
 void validate(const GaSettings& settings);
+/// All of them in words: equal texts, equal settings.
+std::string to_text(const GaSettings& settings);
 
 struct GaPreset {
   std::string_view name;

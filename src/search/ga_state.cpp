@@ -12,24 +12,13 @@ namespace espalier {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x0a41'4750'5345ull;  // the bytes "ESPGA\n"
-constexpr std::uint64_t kStateVersion = 3;
-
-// Everything that must be equal for a continued search to be the same search.
-std::string fingerprint(const SearchProblem& problem, const GaSettings& s) {
-  return fmt::format("ga {} seed {} lane {} P {} E {} L {}..{} mutation {} {} {} {} select {} {} {} cross {} {} {} "
-                     "genes {}..{} reuse {} nudge {} unique {} restart {} locks {}",
-                     problem.graph->source_hash, problem.seed, problem.lane, s.population, s.elitism,
-                     s.initial_length_min, s.initial_length_max, s.mutation, s.grow, s.cut, s.alter, name_of(s.first),
-                     name_of(s.second), s.tournament_size, static_cast<int>(s.crossover), s.retries,
-                     s.replace_probability, s.genes.min, s.genes.max, s.reuse_scores,
-                     s.nudge, s.unique, s.restart_after, problem.locks.size());
-}
+constexpr std::uint64_t kStateVersion = 4;
 
 }  // namespace
 
 void GaEngine::save(std::ostream& out) const {
   StateWriter writer(out);
-  write_head(writer, kMagic, kStateVersion, fingerprint(problem_, settings_));
+  write_head(writer, kMagic, kStateVersion, fingerprint("ga", problem_, to_text(settings_)));
   writer.u64(steps_);
   writer.u64(evaluations_);
   const std::vector<NamedCount> counts = named(counts_);
@@ -45,7 +34,7 @@ void GaEngine::save(std::ostream& out) const {
 
 void GaEngine::load(std::istream& in) {
   StateReader reader(in);
-  read_head(reader, kMagic, kStateVersion, fingerprint(problem_, settings_));
+  read_head(reader, kMagic, kStateVersion, fingerprint("ga", problem_, to_text(settings_)));
   const std::uint64_t steps = reader.u64(), evaluations = reader.u64();
   std::vector<std::uint64_t> counts(named(counts_).size());
   for (std::uint64_t& count : counts) count = reader.u64();

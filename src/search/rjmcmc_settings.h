@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "derivation/proposal.h"
@@ -32,5 +33,7 @@ struct RjmcmcSettings {
 
 /// Throws Error stating the first rule broken, with setting and value.
 void validate(const RjmcmcSettings& settings);
+/// All of them in words: equal texts, equal settings.
+std::string to_text(const RjmcmcSettings& settings);
 
 }  // namespace espalier

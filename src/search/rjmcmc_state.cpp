@@ -16,15 +16,6 @@ constexpr std::uint64_t kMagic = 0x0a4a'5250'5345ull;  // the bytes "ESPRJ\n"
 constexpr std::uint64_t kStateVersion = 1;
 constexpr const char* kKinds[kProposalKinds] = {"draws", "nudges", "slots", "jumps", "delayed nudges"};
 
-std::string fingerprint(const SearchProblem& problem, const RjmcmcSettings& s, double beta) {
-  return fmt::format("rjmcmc {} seed {} lane {} chains {} temperatures {} heat {} beta {} anneal {} every {} most {} "
-                     "shares {} {} {} {} choice {} delayed {} swap {} length {}..{} genes {}..{} locks {}",
-                     problem.graph->source_hash, problem.seed, problem.lane, s.chains, s.temperatures, s.heat, beta,
-                     s.anneal, s.anneal_every, s.anneal_most, s.draws, s.nudges, s.slots, s.jumps,
-                     static_cast<int>(s.choice), s.delayed, s.swap_every, s.initial_length_min, s.initial_length_max,
-                     s.genes.min, s.genes.max, problem.locks.size());
-}
-
 void write(StateWriter& writer, const ProposalCount& count) {
   writer.u64(count.proposed);
   writer.u64(count.accepted);
@@ -60,7 +51,7 @@ std::vector<NamedCount> RjmcmcEngine::diagnostics() const {
 
 void RjmcmcEngine::save(std::ostream& out) const {
   StateWriter writer(out);
-  write_head(writer, kMagic, kStateVersion, fingerprint(problem_, settings_, beta_));
+  write_head(writer, kMagic, kStateVersion, fingerprint("rjmcmc", problem_, to_text(settings_)));
   writer.u64(steps_);
   writer.u64(evaluations_);
   writer.u64(rejected_starts_);
@@ -78,7 +69,7 @@ void RjmcmcEngine::save(std::ostream& out) const {
 
 void RjmcmcEngine::load(std::istream& in) {
   StateReader reader(in);
-  read_head(reader, kMagic, kStateVersion, fingerprint(problem_, settings_, beta_));
+  read_head(reader, kMagic, kStateVersion, fingerprint("rjmcmc", problem_, to_text(settings_)));
   const std::uint64_t steps = reader.u64(), evaluations = reader.u64(), rejected_starts = reader.u64();
   auto counts = counts_;
   auto swaps = swaps_;

@@ -14,4 +14,12 @@ void validate(const SmcSettings& s) {
   require_lengths(s.initial_length_min, s.initial_length_max, s.genes);
 }
 
+std::string to_text(const SmcSettings& s) {
+  return fmt::format("{} particles {} schedule {}..{} steps {} resample {} below {} weight {} temperature {} length "
+                     "{}..{} genes {}..{}",
+                     s.order == SlotOrder::random ? "sosmc" : "smc", s.particles, s.schedule, s.most_particles,
+                     s.most_steps, name_of(s.resampling), s.resample_below, static_cast<int>(s.weight),
+                     s.temperature.value_or(0), s.initial_length_min, s.initial_length_max, s.genes.min, s.genes.max);
+}
+
 }  // namespace espalier

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "derivation/sample.h"
 #include "search/gene_limits.h"
@@ -33,5 +34,7 @@ struct SmcSettings {
 
 /// Throws Error stating the first rule broken, with setting and value.
 void validate(const SmcSettings& settings);
+/// All of them in words: equal texts, equal settings.
+std::string to_text(const SmcSettings& settings);
 
 }  // namespace espalier

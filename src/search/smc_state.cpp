@@ -14,15 +14,6 @@ namespace {
 constexpr std::uint64_t kMagic = 0x0a43'4d53'5053'45ull;  // the bytes "ESPSMC\n"
 constexpr std::uint64_t kStateVersion = 1;
 
-std::string fingerprint(const SearchProblem& problem, const SmcSettings& s, double beta) {
-  return fmt::format("{} {} seed {} lane {} particles {} schedule {}..{} steps {} resample {} below {} weight {} beta {} "
-                     "length {}..{} genes {}..{} locks {}",
-                     s.order == SlotOrder::random ? "sosmc" : "smc", problem.graph->source_hash, problem.seed,
-                     problem.lane, s.particles, s.schedule, s.most_particles, s.most_steps, name_of(s.resampling),
-                     s.resample_below, static_cast<int>(s.weight), beta, s.initial_length_min, s.initial_length_max,
-                     s.genes.min, s.genes.max, problem.locks.size());
-}
-
 struct Entry {
   const char* name;
   std::uint64_t SmcCounts::*member;
@@ -50,7 +41,7 @@ std::vector<NamedCount> SmcEngine::diagnostics() const {
 
 void SmcEngine::save(std::ostream& out) const {
   StateWriter writer(out);
-  write_head(writer, kMagic, kStateVersion, fingerprint(problem_, settings_, beta_));
+  write_head(writer, kMagic, kStateVersion, fingerprint("smc", problem_, to_text(settings_)));
   for (const std::uint64_t value : {steps_, evaluations_, sweep_step_, std::uint64_t{particle_count_}}) writer.u64(value);
   for (const double value : {log_evidence_, log_mean_, effective_}) writer.f64(value);
   for (const Entry& entry : kEntries) writer.u64(counts_.*entry.member);
@@ -65,7 +56,7 @@ void SmcEngine::save(std::ostream& out) const {
 
 void SmcEngine::load(std::istream& in) {
   StateReader reader(in);
-  read_head(reader, kMagic, kStateVersion, fingerprint(problem_, settings_, beta_));
+  read_head(reader, kMagic, kStateVersion, fingerprint("smc", problem_, to_text(settings_)));
   const std::uint64_t steps = reader.u64(), evaluations = reader.u64(), sweep_step = reader.u64();
   const std::uint64_t particles = reader.u64_at_most(1'000'000, "particles");
   const double log_evidence = reader.f64(), log_mean = reader.f64(), effective = reader.f64();
