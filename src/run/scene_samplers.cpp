@@ -1,0 +1,93 @@
+#include "run/scene_samplers.h"
+
+#include <fmt/format.h>
+
+#include "run/initial_length.h"
+#include "run/scene_choices.h"
+
+namespace espalier {
+namespace {
+
+constexpr Choice<Resampling> kResamplings[] = {{"systematic", Resampling::systematic},
+                                               {"stratified", Resampling::stratified},
+                                               {"multinomial", Resampling::multinomial},
+                                               {"residual", Resampling::residual}};
+constexpr Choice<ParticleWeight> kWeights[] = {{"exponential", ParticleWeight::exponential},
+                                               {"ratio", ParticleWeight::ratio}};
+constexpr Choice<PlaceChoice> kPlaceChoices[] = {{"uniform", PlaceChoice::uniform}, {"level", PlaceChoice::by_level}};
+
+template <typename T, typename U>
+void take(T& place, const std::optional<U>& value) {
+  if (value) place = static_cast<T>(*value);
+}
+
+std::string temperature_line(const std::optional<double>& temperature) {
+  return temperature ? fmt::format("temperature = {}\n", format_toml(*temperature)) : "";
+}
+
+}  // namespace
+
+void read_smc(TomlSection& s, SmcSettings& settings) {
+  take(settings.particles, s.whole("particles", 2, 1'000'000));
+  take(settings.schedule, s.number("schedule", 1, 100));
+  take(settings.most_particles, s.whole("most_particles", 2, 1'000'000));
+  if (settings.most_particles < settings.particles && !s.member("most_particles")) {
+    settings.most_particles = settings.particles;
+  }
+  take(settings.most_steps, s.whole("steps", 1, 1'000'000));
+  take(settings.resampling, s.choice("resampling", kResamplings));
+  take(settings.resample_below, s.number("resample_below", 0, 1));
+  take(settings.weight, s.choice("weight", kWeights));
+  take(settings.temperature, s.number("temperature", 1e-12, 1e12));
+  read_initial_length(s, settings.initial_length_min, settings.initial_length_max);
+}
+
+void read_rjmcmc(TomlSection& s, RjmcmcSettings& settings) {
+  take(settings.chains, s.whole("chains", 1, 100'000));
+  take(settings.temperatures, s.whole("temperatures", 1, 100'000));
+  if (settings.temperatures > settings.chains && !s.member("temperatures")) settings.temperatures = settings.chains;
+  take(settings.heat, s.number("heat", 1, 1e6));
+  take(settings.temperature, s.number("temperature", 1e-12, 1e12));
+  take(settings.anneal, s.number("anneal", 1, 100));
+  take(settings.anneal_every, s.whole("anneal_every", 1, 1'000'000'000));
+  take(settings.anneal_most, s.number("anneal_most", 1, 1e12));
+  take(settings.draws, s.number("draws", 0, 1e6));
+  take(settings.nudges, s.number("nudges", 0, 1e6));
+  take(settings.slots, s.number("slots", 0, 1e6));
+  take(settings.jumps, s.number("jumps", 0, 1e6));
+  take(settings.choice, s.choice("choice", kPlaceChoices));
+  take(settings.delayed, s.boolean("delayed"));
+  take(settings.swap_every, s.whole("swap_every", 0, 1'000'000'000));
+  read_initial_length(s, settings.initial_length_min, settings.initial_length_max);
+}
+
+void read_hybrid(TomlSection& s, HybridSettings& settings) {
+  take(settings.sweeps, s.whole("sweeps", 1, 1000));
+  take(settings.patience, s.whole("patience", 1, 1'000'000'000'000));
+  take(settings.least_rise, s.number("least_rise", 0, 1));
+}
+
+std::string to_toml(const SmcSettings& s) {
+  return fmt::format("particles = {}\nschedule = {}\nmost_particles = {}\nsteps = {}\nresampling = \"{}\"\n"
+                     "resample_below = {}\nweight = \"{}\"\n",
+                     s.particles, format_toml(s.schedule), s.most_particles, s.most_steps,
+                     word_for(kResamplings, s.resampling), format_toml(s.resample_below), word_for(kWeights, s.weight)) +
+         temperature_line(s.temperature) + initial_length_line(s.initial_length_min, s.initial_length_max);
+}
+
+std::string to_toml(const RjmcmcSettings& s) {
+  return fmt::format("chains = {}\ntemperatures = {}\nheat = {}\n", s.chains, s.temperatures, format_toml(s.heat)) +
+         temperature_line(s.temperature) +
+         fmt::format("anneal = {}\nanneal_every = {}\nanneal_most = {}\ndraws = {}\nnudges = {}\nslots = {}\n"
+                     "jumps = {}\nchoice = \"{}\"\ndelayed = {}\nswap_every = {}\n",
+                     format_toml(s.anneal), s.anneal_every, format_toml(s.anneal_most), format_toml(s.draws),
+                     format_toml(s.nudges), format_toml(s.slots), format_toml(s.jumps),
+                     word_for(kPlaceChoices, s.choice), s.delayed, s.swap_every) +
+         initial_length_line(s.initial_length_min, s.initial_length_max);
+}
+
+std::string to_toml(const HybridSettings& s) {
+  return fmt::format("sweeps = {}\npatience = {}\nleast_rise = {}\n", s.sweeps, s.patience, format_toml(s.least_rise));
+}
+
+}  // namespace espalier
