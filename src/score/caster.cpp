@@ -164,6 +164,7 @@ Caster make_caster(const MeshRef& ref, const Mesh& mesh) {
   caster.kind = Caster::Kind::convex;
   if (ref.kind == MeshKind::box || wheel || !convex_planes(mesh).empty()) set_bent_edges(caster);
   else if (!set_convex_border(caster)) caster.kind = Caster::Kind::triangles, caster.edges.clear();
+  if (!caster.tapered) caster.folds = FoldMesh(caster.corners, caster.triangles);
   return caster;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/model.h"
+#include "score/fold_mesh.h"
 #include "score/projection.h"
 
 namespace espalier {
@@ -23,6 +24,7 @@ struct Caster {
   std::vector<Vec3> corners;                        // all kinds but sphere and round, in mesh space
   std::vector<std::array<std::uint32_t, 2>> edges;  // convex: those where its faces bend, or its border
   std::vector<Triangle> triangles;                  // convex and triangles: the surface
+  FoldMesh folds;                                   // convex and triangles: the same, unless tapered
 };
 
 Caster make_caster(const MeshRef& ref, const Mesh& mesh);

@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "base/check.h"
+#include "score/fold_draw-inl.h"
 #include "score/silhouette-inl.h"
 #include "score/silhouette_kernel.h"
 
@@ -24,23 +25,30 @@ void draw_by_pixel(const Caster& caster, const Instance& instance, const Project
         canvas.set(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
 }
 
+/// Any part, one at a time.
+void draw_carefully(const Caster& caster, const Instance& instance, const Projection& projection,
+                    SilhouetteScratch& scratch) {
+  OutlineMaker& maker = scratch.maker;
+  switch (maker.set(caster, instance)) {
+    case OutlineMaker::Result::nothing: break;
+    case OutlineMaker::Result::outline: draw_outline(maker.outline(), scratch.canvas); break;
+    case OutlineMaker::Result::triangles:
+      for (std::size_t i = 0; i < maker.triangles(); ++i)
+        if (maker.triangle(i)) draw_outline(maker.outline(), scratch.canvas);
+      break;
+    case OutlineMaker::Result::by_pixel:
+      draw_by_pixel(caster, instance, projection, maker.outline(), scratch.canvas);
+      break;
+  }
+}
+
 void draw_silhouette(const std::vector<Caster>& casters, const Projection& projection,
                      std::span<const Instance> instances, VolumeView view, SilhouetteScratch& scratch) {
-  OutlineMaker& maker = scratch.maker;
   for (const Instance& instance : instances) {
     if (!(view == VolumeView::full ? in_full(instance) : in_parts(instance))) continue;
     const Caster& caster = casters[instance.mesh];
-    switch (maker.set(caster, instance)) {
-      case OutlineMaker::Result::nothing: break;
-      case OutlineMaker::Result::outline: draw_outline(maker.outline(), scratch.canvas); break;
-      case OutlineMaker::Result::triangles:
-        for (std::size_t i = 0; i < maker.triangles(); ++i)
-          if (maker.triangle(i)) draw_outline(maker.outline(), scratch.canvas);
-        break;
-      case OutlineMaker::Result::by_pixel:
-        draw_by_pixel(caster, instance, projection, maker.outline(), scratch.canvas);
-        break;
-    }
+    if (caster.folds.faces > 0 && draw_folds(caster.folds, instance, projection, scratch.folds, scratch.canvas)) continue;
+    draw_carefully(caster, instance, projection, scratch);
   }
 }
 
