@@ -9,9 +9,11 @@
 #endif
 
 #include <algorithm>
+#include <bit>
 
 #include "score/eight-inl.h"
 #include "score/outline.h"
+#include "score/outline_batch-inl.h"
 #include "score/silhouette_kernel.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -48,22 +50,26 @@ HWY_INLINE I8 column_from(const F8& x, std::int32_t origin, std::int32_t least, 
   return smaller(larger(column, I8::all(least)), I8::all(most));
 }
 
-/// Sets the pixels whose middles lie within the outline.
-HWY_INLINE void draw_outline(const Outline& outline, PixelCanvas& canvas) {
-  const std::int32_t first_word = outline.column[0] >> 5, last_word = (outline.column[1] - 1) >> 5;
-  for (std::int32_t tile = outline.row[0] >> 3; tile <= (outline.row[1] - 1) >> 3; ++tile) {
-    const F8 y = lanes_from(static_cast<float>(tile * 8 - outline.origin[1]) + 0.5f);
-    const float first = static_cast<float>(tile * 8 - outline.origin[1]), last = first + 8;
+/// Where a part may be: pixels of the image, half-open, and what its pieces count from.
+struct SpanBox {
+  std::int32_t origin[2], column[2], row[2];
+};
+
+/// Sets the pixels whose middles lie between the pieces' least and greatest columns; `add(first, last, y, spans)` adds
+/// what lies between two rows.
+template <class AddPieces>
+HWY_INLINE void draw_spans(const SpanBox& box, PixelCanvas& canvas, const AddPieces& add) {
+  const std::int32_t first_word = box.column[0] >> 5, last_word = (box.column[1] - 1) >> 5;
+  for (std::int32_t tile = box.row[0] >> 3; tile <= (box.row[1] - 1) >> 3; ++tile) {
+    const float first = static_cast<float>(tile * 8 - box.origin[1]), last = first + 8;
+    const F8 y = lanes_from(first + 0.5f);
     RowSpans spans;
-    for (const OutlineEdge& edge : outline.edges)
-      if (edge.y_low < last && edge.y_high > first) spans.add(edge, y);
-    for (const OutlineEllipse& ellipse : outline.ellipses)
-      if (ellipse.y_low < last && ellipse.y_high > first) spans.add(ellipse, y);
+    add(first, last, y, spans);
     // Rows of the last tile that lie below the image stay empty.
-    const F8 below = F8::all(static_cast<float>(outline.row[1] - outline.origin[1]));
+    const F8 below = F8::all(static_cast<float>(box.row[1] - box.origin[1]));
     spans.high = choose(less(y, below), spans.high, F8::all(-kNowhere));
-    const I8 low = column_from(spans.low, outline.origin[0], outline.column[0], outline.column[1]);
-    const I8 high = larger(column_from(spans.high, outline.origin[0], outline.column[0], outline.column[1]), low);
+    const I8 low = column_from(spans.low, box.origin[0], box.column[0], box.column[1]);
+    const I8 high = larger(column_from(spans.high, box.origin[0], box.column[0], box.column[1]), low);
     std::uint32_t* words = canvas.words.data() +
                            (static_cast<std::size_t>(tile) * canvas.across + static_cast<std::size_t>(first_word)) * 8;
     for (std::int32_t word = first_word; word <= last_word; ++word, words += 8) {
@@ -72,6 +78,36 @@ HWY_INLINE void draw_outline(const Outline& outline, PixelCanvas& canvas) {
       (U8::load(words) | mask).store(words);
     }
   }
+}
+
+HWY_INLINE void draw_outline(const Outline& outline, PixelCanvas& canvas) {
+  const SpanBox box{{outline.origin[0], outline.origin[1]}, {outline.column[0], outline.column[1]},
+                    {outline.row[0], outline.row[1]}};
+  draw_spans(box, canvas, [&](float first, float last, const F8& y, RowSpans& spans) {
+    for (const OutlineEdge& edge : outline.edges)
+      if (edge.y_low < last && edge.y_high > first) spans.add(edge, y);
+    for (const OutlineEllipse& ellipse : outline.ellipses)
+      if (ellipse.y_low < last && ellipse.y_high > first) spans.add(ellipse, y);
+  });
+}
+
+/// One part of a batch.
+HWY_INLINE void draw_lane(const OutlineBatch& b, int lane, PixelCanvas& canvas) {
+  const SpanBox box{{b.origin_[0][lane], b.origin_[1][lane]}, {b.column_[0][lane], b.column_[1][lane]},
+                    {b.row_[0][lane], b.row_[1][lane]}};
+  if (box.column[0] >= box.column[1] || box.row[0] >= box.row[1]) return;
+  draw_spans(box, canvas, [&](float first, float last, const F8& y, RowSpans& spans) {
+    for (std::uint32_t left = b.kept_[lane]; left != 0; left &= left - 1) {
+      const float(&e)[6][8] = b.edges_[std::countr_zero(left)];
+      if (e[0][lane] < last && e[1][lane] > first)
+        spans.add(OutlineEdge{e[0][lane], e[1][lane], e[2][lane], e[3][lane], e[4][lane], e[5][lane]}, y);
+    }
+    for (int i = 0; i < b.ellipse_count_; ++i) {
+      const float(&e)[7][8] = b.ellipses_[i];
+      if (e[5][lane] < last && e[6][lane] > first)
+        spans.add(OutlineEllipse{e[0][lane], e[1][lane], e[2][lane], e[3][lane], e[4][lane], e[5][lane], e[6][lane]}, y);
+    }
+  });
 }
 
 HWY_INLINE U8 population(const U8& a) {

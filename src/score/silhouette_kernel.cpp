@@ -42,14 +42,52 @@ void draw_carefully(const Caster& caster, const Instance& instance, const Projec
   }
 }
 
+enum class BatchKind : std::uint8_t { sphere, round, box };
+
+/// Draws the parts of a queue, and empties it.
+void flush(PartQueue& queue, BatchKind kind, const std::vector<Caster>& casters, const Projection& projection,
+           SilhouetteScratch& scratch) {
+  if (queue.count == 0) return;
+  for (int lane = queue.count; lane < 8; ++lane) queue.part[lane] = queue.part[0], queue.top[lane] = 1;
+  OutlineBatch batch;
+  batch.load(projection, queue);
+  switch (kind) {
+    case BatchKind::sphere: batch.set_spheres(); break;
+    case BatchKind::round: batch.set_rounds(); break;
+    case BatchKind::box: batch.set_boxes(); break;
+  }
+  batch.finish(projection);
+  for (int lane = 0; lane < queue.count; ++lane) {
+    const Instance& part = *queue.part[lane];
+    if (batch.ready_[lane] != 0) draw_lane(batch, lane, scratch.canvas);
+    else draw_carefully(casters[part.mesh], part, projection, scratch);
+  }
+  queue.count = 0;
+}
+
 void draw_silhouette(const std::vector<Caster>& casters, const Projection& projection,
                      std::span<const Instance> instances, VolumeView view, SilhouetteScratch& scratch) {
+  PartQueue queues[3];
   for (const Instance& instance : instances) {
     if (!(view == VolumeView::full ? in_full(instance) : in_parts(instance))) continue;
     const Caster& caster = casters[instance.mesh];
-    if (caster.folds.faces > 0 && draw_folds(caster.folds, instance, projection, scratch.folds, scratch.canvas)) continue;
-    draw_carefully(caster, instance, projection, scratch);
+    BatchKind kind = BatchKind::box;
+    if (caster.kind == Caster::Kind::sphere) {
+      kind = BatchKind::sphere;
+    } else if (caster.kind == Caster::Kind::round) {
+      kind = BatchKind::round;
+    } else if (caster.kind != Caster::Kind::box) {
+      if (caster.folds.faces == 0 ||
+          !draw_folds(caster.folds, instance, projection, scratch.folds, scratch.canvas))
+        draw_carefully(caster, instance, projection, scratch);
+      continue;
+    }
+    PartQueue& queue = queues[static_cast<int>(kind)];
+    queue.part[queue.count] = &instance;
+    queue.top[queue.count] = caster.tapered ? instance.top : 1;
+    if (++queue.count == 8) flush(queue, kind, casters, projection, scratch);
   }
+  for (int k = 0; k < 3; ++k) flush(queues[k], static_cast<BatchKind>(k), casters, projection, scratch);
 }
 
 void sweep_silhouette(PixelCanvas& canvas, const WeightTiles& weights, SilhouetteCounts& counts) {
