@@ -96,7 +96,15 @@ HWY_INLINE Eight<Tag> less(const Eight<Tag>& a, const Eight<Tag>& b) {
   return r;
 }
 
-/// a where the lane of `test`, made by `less`, is set, else b.
+/// All bits set where a and b differ.
+template <class Tag>
+HWY_INLINE Eight<Tag> different(const Eight<Tag>& a, const Eight<Tag>& b) {
+  Eight<Tag> r;
+  for (std::size_t i = 0; i < r.kBlocks; ++i) r.block[i] = hn::VecFromMask(Tag(), hn::Ne(a.block[i], b.block[i]));
+  return r;
+}
+
+/// a where the lane of `test`, made by one of these, is set, else b.
 template <class Tag>
 HWY_INLINE Eight<Tag> choose(const Eight<Tag>& test, const Eight<Tag>& a, const Eight<Tag>& b) {
   Eight<Tag> r;

@@ -17,6 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace espalier {
 namespace HWY_NAMESPACE {
 
+enum class BatchKind : std::uint8_t { sphere, round, box };
+
 /// Parts of one kind that wait to be eight.
 struct PartQueue {
   const Instance* part[8];
@@ -32,6 +34,15 @@ HWY_INLINE H8 operator+(const H8& a, const H8& b) { return {a.x + b.x, a.y + b.y
 HWY_INLINE H8 operator-(const H8& a, const H8& b) { return {a.x - b.x, a.y - b.y, a.w - b.w}; }
 HWY_INLINE H8 operator*(const F8& k, const H8& a) { return {k * a.x, k * a.y, k * a.w}; }
 
+/// Some lane is not all ones.
+HWY_INLINE bool any_but(const U8& a) {
+  alignas(32) std::uint32_t lane[8];
+  a.store(lane);
+  std::uint32_t all = ~0u;
+  for (const std::uint32_t v : lane) all &= v;
+  return all != ~0u;
+}
+
 class OutlineBatch {
  public:
   static constexpr int kMostEdges = 12;
@@ -45,9 +56,13 @@ class OutlineBatch {
   /// Rectangles; to be called last.
   HWY_INLINE void finish(const Projection& projection);
 
-  // By lane. Rows of edges_ and ellipses_ are the members of OutlineEdge and OutlineEllipse, relative to origin_.
-  alignas(32) float edges_[kMostEdges][6][8], ellipses_[2][7][8];
+  // By lane. Rows of edges_ and ellipses_ are the first members of OutlineEdge and OutlineEllipse, relative to origin_.
+  alignas(32) float edges_[kMostEdges][4][8], ellipses_[2][5][8];
   alignas(32) std::uint32_t kept_[8];   // bit e: edge e is there
+  // Boxes of which three faces are seen: their outline is a hexagon, whose sides are lines at column slope * y + left or
+  // + right, the other of which lies far off.
+  alignas(32) float lines_[6][3][8];
+  alignas(32) std::uint32_t hexagon_[8];
   alignas(32) std::uint32_t ready_[8];  // all bits: the lane is; none: OutlineMaker must
   alignas(32) std::int32_t origin_[2][8], column_[2][8], row_[2][8];
   int ellipse_count_ = 0;
@@ -58,6 +73,8 @@ class OutlineBatch {
   HWY_INLINE void include(const F8& x, const F8& y, const F8& reach_x, const F8& reach_y);
   template <int kRadii>
   HWY_INLINE void add_ellipse(const H8& middle, const H8 radius[kRadii]);
+  HWY_INLINE void set_hexagons(const H8 corner[3], const F8& mirrored);
+  HWY_INLINE void set_box_edges(const F8 turn[3][2]);
   HWY_INLINE void add_edge(int index, const F8& ax, const F8& ay, const F8& bx, const F8& by, const F8& valid);
 
   alignas(32) float in_[12][8], jacobian_[3][3][8], middle_[2][8], whole_[2][8], depth_[8];
@@ -168,10 +185,9 @@ HWY_INLINE void OutlineBatch::add_ellipse(const H8& middle, const H8 radius[kRad
   const F8 half_width = square_root(minors + turned * per_ww) * per_ww * per_height;
   const F8 at_x = from_x + dx + shift_[0], at_y = from_y + dy + shift_[1];
   float(*to)[8] = ellipses_[ellipse_count_++];
-  at_x.store(to[0]), at_y.store(to[1]), (xy * per_height * per_height).store(to[2]);
-  half_width.store(to[3]), per_height.store(to[4]);
-  choose(flat, F8::all(1e9f), at_y - half_height).store(to[5]);  // along a row: no pixel's middle lies in it
-  choose(flat, F8::all(-1e9f), at_y + half_height).store(to[6]);
+  at_x.store(to[0]), at_y.store(to[1]), (xy * per_height).store(to[2]);
+  half_width.store(to[3]);
+  choose(flat, F8::all(1e9f), per_height).store(to[4]);  // along a row: no pixel's middle lies in it
   include(at_x, at_y, reach, half_height);
 }
 
@@ -179,10 +195,11 @@ HWY_INLINE void OutlineBatch::add_edge(int index, const F8& ax, const F8& ay, co
                                        const F8& valid) {
   const F8 down = less(ay, by), y_low = smaller(ay, by), y_high = larger(ay, by), tall = y_high - y_low;
   const F8 x = choose(down, ax, bx), there = less(F8::all(1e-9f), tall) & valid;
+  const F8 zero = F8::all(0), slope = (choose(down, bx, ax) - x) / choose(there, tall, F8::all(1));
   float(*to)[8] = edges_[index];
-  y_low.store(to[0]), y_high.store(to[1]), x.store(to[2]);
-  ((choose(down, bx, ax) - x) / larger(tall, F8::all(1e-9f))).store(to[3]);
-  smaller(ax, bx).store(to[4]), larger(ax, bx).store(to[5]);
+  choose(there, y_low, F8::all(1e9f)).store(to[0]);  // else: in no row
+  choose(there, y_high, F8::all(-1e9f)).store(to[1]);
+  choose(there, x, zero).store(to[2]), choose(there, slope, zero).store(to[3]);
   kept_bits_ = kept_bits_ | (bits_of(there) & U8::all(1u << index));
 }
 
@@ -213,23 +230,60 @@ HWY_INLINE void OutlineBatch::set_rounds() {
   }
 }
 
-// Edges between a face that looks at the viewer and one that looks away.
 HWY_INLINE void OutlineBatch::set_boxes() {
-  const H8 middle{F8::all(0), F8::all(0), F8::all(1)};
-  F8 x[8], y[8], turn[3][2];
+  const H8 &p = half_[0], &q = half_[1], &r = half_[2];
+  const F8 area[3] = {q.x * r.y - q.y * r.x, r.x * p.y - r.y * p.x, p.x * q.y - p.y * q.x};
+  const F8 volume = r.w * area[2] + r.x * (p.y * q.w - p.w * q.y) + r.y * (p.w * q.x - p.x * q.w);
+  // Which faces at the low and high ends of the axes turn clockwise in the image; of a hexagon one at each.
+  F8 turn[3][2], all_three = ok_, odd = F8::all(0);
+  H8 corner[3];
+  for (int j = 0; j < 3; ++j) {
+    turn[j][0] = less(area[j], volume), turn[j][1] = less(-area[j], volume);
+    all_three = all_three & (turn[j][0] ^ turn[j][1]);
+    odd = odd ^ turn[j][0];
+    const H8& h = half_[j];
+    corner[j] = {choose(turn[j][1], h.x, -h.x), choose(turn[j][1], h.y, -h.y), choose(turn[j][1], h.w, -h.w)};
+  }
+  set_hexagons(corner, odd);
+  bits_of(all_three).store(hexagon_);
+  if (any_but(bits_of(all_three))) set_box_edges(turn);
+}
+
+// The corners that are next to one of the two that are seen and hidden: h0 + h1 + h2 and its opposite.
+HWY_INLINE void OutlineBatch::set_hexagons(const H8 h[3], const F8& mirrored) {
+  static constexpr int kAround[6][3] = {{1, 1, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}, {0, 1, 1}, {0, 1, 0}};
+  F8 x[6], y[6];
+  const F8 zero = F8::all(0), one = F8::all(1), far = F8::all(1e9f);
+  for (int i = 0; i < 6; ++i) {
+    H8 p{zero, zero, one};
+    for (int j = 0; j < 3; ++j) p = kAround[i][j] != 0 ? p + h[j] : p - h[j];
+    const F8 per_w = one / p.w;
+    x[i] = p.x * per_w + shift_[0], y[i] = p.y * per_w + shift_[1];
+    include(x[i], y[i], zero, zero);
+  }
+  for (int i = 0; i < 6; ++i) {
+    const F8 wide = x[(i + 1) % 6] - x[i], tall = y[(i + 1) % 6] - y[i];
+    const F8 there = less(F8::all(1e-6f) * magnitude(wide), magnitude(tall));  // else along a row: does not bound it
+    const F8 slope = choose(there, wide / choose(there, tall, one), zero), at = x[i] - slope * y[i];
+    const F8 left = less(zero, tall) ^ mirrored;
+    slope.store(lines_[i][0]);
+    choose(there & left, at, -far).store(lines_[i][1]);
+    choose(there, choose(left, far, at), far).store(lines_[i][2]);
+  }
+}
+
+// Boxes of which fewer faces are seen, or that are flat: the edges between a face that turns one way and one that turns
+// the other.
+HWY_INLINE void OutlineBatch::set_box_edges(const F8 turn[3][2]) {
+  F8 x[8], y[8];
   const F8 zero = F8::all(0);
   for (int i = 0; i < 8; ++i) {
-    H8 p = i & 1 ? middle + half_[0] : middle - half_[0];
-    p = i & 2 ? p + half_[1] : p - half_[1];
-    p = i & 4 ? p + half_[2] : p - half_[2];
+    H8 p{zero, zero, F8::all(1)};
+    for (int j = 0; j < 3; ++j) p = i >> j & 1 ? p + half_[j] : p - half_[j];
     const F8 per_w = F8::all(1) / p.w;
     x[i] = p.x * per_w + shift_[0], y[i] = p.y * per_w + shift_[1];
     include(x[i], y[i], zero, zero);
   }
-  const H8 &p = half_[0], &q = half_[1], &r = half_[2];
-  const F8 area[3] = {q.x * r.y - q.y * r.x, r.x * p.y - r.y * p.x, p.x * q.y - p.y * q.x};
-  const F8 volume = r.w * area[2] + r.x * (p.y * q.w - p.w * q.y) + r.y * (p.w * q.x - p.x * q.w);
-  for (int j = 0; j < 3; ++j) turn[j][0] = less(area[j], volume), turn[j][1] = less(-area[j], volume);
   for (int e = 0; e < 12; ++e) {  // along axis j, at the low or high ends of the next two
     const int j = e / 4, k = (j + 1) % 3, l = (j + 2) % 3, at_k = e & 1, at_l = e >> 1 & 1;
     const int from = at_k << k | at_l << l, to = from | 1 << j;

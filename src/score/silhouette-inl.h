@@ -27,20 +27,20 @@ struct RowSpans {
   F8 low, high;
 
   HWY_INLINE RowSpans() : low(F8::all(kNowhere)), high(F8::all(-kNowhere)) {}
+  // Sums keep rows outside a piece away: blending takes longer.
   HWY_INLINE void add(const OutlineEdge& edge, const F8& y) {
-    const F8 x =
-        smaller(larger(F8::all(edge.x) + F8::all(edge.slope) * (y - F8::all(edge.y_low)), F8::all(edge.x_least)),
-                F8::all(edge.x_most));
-    const F8 outside = less(y, F8::all(edge.y_low)) | less(F8::all(edge.y_high), y);
-    low = choose(outside, low, smaller(low, x));
-    high = choose(outside, high, larger(high, x));
+    const F8 from = F8::all(edge.y_low), at = smaller(larger(y, from), F8::all(edge.y_high));
+    const F8 x = F8::all(edge.x) + F8::all(edge.slope) * (at - from), away = different(at, y) & F8::all(kNowhere);
+    low = smaller(low, x + away);
+    high = larger(high, x - away);
   }
   HWY_INLINE void add(const OutlineEllipse& e, const F8& y) {
-    const F8 v = y - F8::all(e.y), t = v * F8::all(e.per_half_height), rest = F8::all(1) - t * t;
-    const F8 half = F8::all(e.half_width) * square_root(larger(rest, F8::all(0)));
-    const F8 middle = F8::all(e.x) + F8::all(e.slope) * v, outside = less(rest, F8::all(0));
-    low = choose(outside, low, smaller(low, middle - half));
-    high = choose(outside, high, larger(high, middle + half));
+    const F8 one = F8::all(1), t = (y - F8::all(e.y)) * F8::all(e.per_half_height);
+    const F8 at = smaller(larger(t, -one), one), away = different(at, t) & F8::all(kNowhere);
+    const F8 half = F8::all(e.half_width) * square_root(one - at * at) - away;
+    const F8 middle = F8::all(e.x) + F8::all(e.lean) * at;
+    low = smaller(low, middle - half);
+    high = larger(high, middle + half);
   }
 };
 
@@ -60,22 +60,30 @@ struct SpanBox {
 template <class AddPieces>
 HWY_INLINE void draw_spans(const SpanBox& box, PixelCanvas& canvas, const AddPieces& add) {
   const std::int32_t first_word = box.column[0] >> 5, last_word = (box.column[1] - 1) >> 5;
-  for (std::int32_t tile = box.row[0] >> 3; tile <= (box.row[1] - 1) >> 3; ++tile) {
+  const std::int32_t origin = box.origin[0] - 32 * first_word, least = box.column[0] - 32 * first_word,
+                     most = box.column[1] - 32 * first_word;
+  const std::int32_t first_tile = box.row[0] >> 3, last_tile = (box.row[1] - 1) >> 3;
+  const std::size_t stride = std::size_t{canvas.across} * 8;
+  std::uint32_t* row_words = canvas.words.data() + static_cast<std::size_t>(first_tile) * stride +
+                             static_cast<std::size_t>(first_word) * 8;
+  for (std::int32_t tile = first_tile; tile <= last_tile; ++tile, row_words += stride) {
     const float first = static_cast<float>(tile * 8 - box.origin[1]), last = first + 8;
-    const F8 y = lanes_from(first + 0.5f);
+    F8 y = lanes_from(first + 0.5f);
+    if (static_cast<std::uint32_t>(tile * 8 + 8) > canvas.height) {  // rows below the image stay empty
+      const F8 below = F8::all(static_cast<float>(box.row[1] - box.origin[1]));
+      y = choose(less(y, below), y, F8::all(kNowhere));
+    }
     RowSpans spans;
     add(first, last, y, spans);
-    // Rows of the last tile that lie below the image stay empty.
-    const F8 below = F8::all(static_cast<float>(box.row[1] - box.origin[1]));
-    spans.high = choose(less(y, below), spans.high, F8::all(-kNowhere));
-    const I8 low = column_from(spans.low, box.origin[0], box.column[0], box.column[1]);
-    const I8 high = larger(column_from(spans.high, box.origin[0], box.column[0], box.column[1]), low);
-    std::uint32_t* words = canvas.words.data() +
-                           (static_cast<std::size_t>(tile) * canvas.across + static_cast<std::size_t>(first_word)) * 8;
-    for (std::int32_t word = first_word; word <= last_word; ++word, words += 8) {
-      const I8 skip = I8::all(32 * word), zero = I8::all(0);
-      const U8 mask = low_bits_but(larger(low - skip, zero)) ^ low_bits_but(larger(high - skip, zero));
-      (U8::load(words) | mask).store(words);
+    I8 low = column_from(spans.low, origin, least, most);
+    I8 high = larger(column_from(spans.high, origin, least, most), low);
+    std::uint32_t* words = row_words;
+    (U8::load(words) | (low_bits_but(low) ^ low_bits_but(high))).store(words);
+    for (std::int32_t word = first_word; word < last_word; ++word) {
+      words += 8;
+      const I8 zero = I8::all(0), wide = I8::all(32);
+      low = larger(low - wide, zero), high = larger(high - wide, zero);
+      (U8::load(words) | (low_bits_but(low) ^ low_bits_but(high))).store(words);
     }
   }
 }
@@ -91,23 +99,58 @@ HWY_INLINE void draw_outline(const Outline& outline, PixelCanvas& canvas) {
   });
 }
 
-/// One part of a batch.
-HWY_INLINE void draw_lane(const OutlineBatch& b, int lane, PixelCanvas& canvas) {
+HWY_INLINE OutlineEdge edge_of(const OutlineBatch& b, int index, int lane) {
+  const float(&e)[4][8] = b.edges_[index];
+  return {e[0][lane], e[1][lane], e[2][lane], e[3][lane]};
+}
+HWY_INLINE OutlineEllipse ellipse_of(const OutlineBatch& b, int index, int lane) {
+  const float(&e)[5][8] = b.ellipses_[index];
+  return {e[0][lane], e[1][lane], e[2][lane], e[3][lane], e[4][lane], 0, 0};
+}
+
+/// A box of which three faces are seen: six lines, in the rows that it reaches.
+HWY_INLINE void draw_hexagon(const OutlineBatch& b, int lane, const SpanBox& box, PixelCanvas& canvas) {
+  const F8 first_row = F8::all(static_cast<float>(box.row[0] - box.origin[1]) + 0.5f),
+           last_row = F8::all(static_cast<float>(box.row[1] - box.origin[1]) - 0.5f);
+  draw_spans(box, canvas, [&](float, float, const F8& y, RowSpans& spans) {
+    F8 low = F8::all(-kNowhere), high = F8::all(kNowhere);
+    for (int i = 0; i < 6; ++i) {
+      const float(&line)[3][8] = b.lines_[i];
+      const F8 x = F8::all(line[0][lane]) * y;
+      low = larger(low, x + F8::all(line[1][lane]));
+      high = smaller(high, x + F8::all(line[2][lane]));
+    }
+    const F8 at = smaller(larger(y, first_row), last_row);
+    spans.low = low;
+    spans.high = choose(different(at, y), F8::all(-kNowhere), high);
+  });
+}
+
+/// One part of a batch. Testing which pieces a tile needs would cost more than what it saves: parts are small.
+HWY_INLINE void draw_lane(const OutlineBatch& b, BatchKind kind, int lane, PixelCanvas& canvas) {
   const SpanBox box{{b.origin_[0][lane], b.origin_[1][lane]}, {b.column_[0][lane], b.column_[1][lane]},
                     {b.row_[0][lane], b.row_[1][lane]}};
   if (box.column[0] >= box.column[1] || box.row[0] >= box.row[1]) return;
-  draw_spans(box, canvas, [&](float first, float last, const F8& y, RowSpans& spans) {
-    for (std::uint32_t left = b.kept_[lane]; left != 0; left &= left - 1) {
-      const float(&e)[6][8] = b.edges_[std::countr_zero(left)];
-      if (e[0][lane] < last && e[1][lane] > first)
-        spans.add(OutlineEdge{e[0][lane], e[1][lane], e[2][lane], e[3][lane], e[4][lane], e[5][lane]}, y);
-    }
-    for (int i = 0; i < b.ellipse_count_; ++i) {
-      const float(&e)[7][8] = b.ellipses_[i];
-      if (e[5][lane] < last && e[6][lane] > first)
-        spans.add(OutlineEllipse{e[0][lane], e[1][lane], e[2][lane], e[3][lane], e[4][lane], e[5][lane], e[6][lane]}, y);
-    }
-  });
+  switch (kind) {
+    case BatchKind::sphere:
+      draw_spans(box, canvas, [&](float, float, const F8& y, RowSpans& spans) { spans.add(ellipse_of(b, 0, lane), y); });
+      break;
+    case BatchKind::round:
+      draw_spans(box, canvas, [&](float, float, const F8& y, RowSpans& spans) {
+        spans.add(edge_of(b, 0, lane), y), spans.add(edge_of(b, 1, lane), y);
+        spans.add(ellipse_of(b, 0, lane), y), spans.add(ellipse_of(b, 1, lane), y);
+      });
+      break;
+    case BatchKind::box:
+      if (b.hexagon_[lane] != 0) return draw_hexagon(b, lane, box, canvas);
+      draw_spans(box, canvas, [&](float first, float last, const F8& y, RowSpans& spans) {
+        for (std::uint32_t left = b.kept_[lane]; left != 0; left &= left - 1) {
+          const OutlineEdge edge = edge_of(b, std::countr_zero(left), lane);
+          if (edge.y_low < last && edge.y_high > first) spans.add(edge, y);
+        }
+      });
+      break;
+  }
 }
 
 HWY_INLINE U8 population(const U8& a) {

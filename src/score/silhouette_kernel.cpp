@@ -42,8 +42,6 @@ void draw_carefully(const Caster& caster, const Instance& instance, const Projec
   }
 }
 
-enum class BatchKind : std::uint8_t { sphere, round, box };
-
 /// Draws the parts of a queue, and empties it.
 void flush(PartQueue& queue, BatchKind kind, const std::vector<Caster>& casters, const Projection& projection,
            SilhouetteScratch& scratch) {
@@ -59,7 +57,7 @@ void flush(PartQueue& queue, BatchKind kind, const std::vector<Caster>& casters,
   batch.finish(projection);
   for (int lane = 0; lane < queue.count; ++lane) {
     const Instance& part = *queue.part[lane];
-    if (batch.ready_[lane] != 0) draw_lane(batch, lane, scratch.canvas);
+    if (batch.ready_[lane] != 0) draw_lane(batch, kind, lane, scratch.canvas);
     else draw_carefully(casters[part.mesh], part, projection, scratch);
   }
   queue.count = 0;
