@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "score/eight-inl.h"
+#include "score/bit_sum-inl.h"
 #include "score/outline.h"
 #include "score/outline_batch-inl.h"
 #include "score/silhouette_kernel.h"
@@ -188,17 +188,28 @@ HWY_INLINE std::uint64_t weigh(const U8& bits, const std::int32_t* degrees) {
   return sum_of(sum);
 }
 
+/// `kPartition`: every pixel is wanted or to be left free. Four registers at a time.
+template <bool kPartition>
 HWY_INLINE void sweep_uniform(PixelCanvas& canvas, const WeightTiles& weights, SilhouetteCounts& counts) {
-  U8 covered = U8::all(0), wanted = U8::all(0), free = U8::all(0);
-  const U8 zero = U8::all(0);
-  for (std::size_t at = 0; at < canvas.words.size(); at += 8) {
-    const U8 bits = U8::load(canvas.words.data() + at);
-    zero.store(canvas.words.data() + at);
-    covered = covered + population(bits);
-    wanted = wanted + population(bits & U8::load(weights.wanted.words.data() + at));
-    free = free + population(bits & U8::load(weights.free.words.data() + at));
+  BitSum covered, wanted, free;
+  const std::uint32_t* all_wanted = weights.wanted.words.data();
+  const std::uint32_t* all_free = weights.free.words.data();
+  std::uint32_t* words = canvas.words.data();
+  const std::size_t size = canvas.words.size();  // whole fours: see PixelCanvas
+  for (std::size_t at = 0; at < size; at += 4 * kStep) {
+    Words bits[4], want[4], leave[4];
+    for (std::size_t i = 0; i < 4; ++i) {
+      bits[i] = hn::Load(WordTag(), words + at + i * kStep);
+      hn::Store(hn::Zero(WordTag()), WordTag(), words + at + i * kStep);
+      want[i] = hn::And(bits[i], hn::Load(WordTag(), all_wanted + at + i * kStep));
+      leave[i] = hn::And(bits[i], hn::Load(WordTag(), all_free + at + i * kStep));
+    }
+    if (!kPartition) covered.add(bits[0], bits[1], bits[2], bits[3]);
+    wanted.add(want[0], want[1], want[2], want[3]);
+    free.add(leave[0], leave[1], leave[2], leave[3]);
   }
-  counts.covered = total(covered), counts.wanted = total(wanted), counts.free = total(free);
+  counts.wanted = wanted.total(), counts.free = free.total();
+  counts.covered = kPartition ? counts.wanted + counts.free : covered.total();
   counts.wanted_sum = counts.wanted * static_cast<std::uint64_t>(weights.wanted_degree);
   counts.free_sum = counts.free * static_cast<std::uint64_t>(weights.free_degree);
 }

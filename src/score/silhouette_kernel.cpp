@@ -89,7 +89,9 @@ void draw_silhouette(const std::vector<Caster>& casters, const Projection& proje
 }
 
 void sweep_silhouette(PixelCanvas& canvas, const WeightTiles& weights, SilhouetteCounts& counts) {
-  weights.graded ? sweep_graded(canvas, weights, counts) : sweep_uniform(canvas, weights, counts);
+  if (weights.graded) sweep_graded(canvas, weights, counts);
+  else if (weights.all.wanted + weights.all.free == weights.all.covered) sweep_uniform<true>(canvas, weights, counts);
+  else sweep_uniform<false>(canvas, weights, counts);
 }
 
 }  // namespace HWY_NAMESPACE
