@@ -142,9 +142,13 @@ Lens lens_for(const RenderSettings& s, const Set& set) {
   return s.fov_deg ? lens_of_angle(*s.fov_deg, s.width, s.height) : long_lens(s.width, s.height);
 }
 
+/// What a placed camera looks at.
+Vec3 looked_at(const CameraPlace& place, const Set& set) { return place.at ? set.unit_point(*place.at) : Vec3(0); }
+
 Camera placed(const CameraPlace& place, const Set& set, const Lens& lens) {
-  CHECK(place.eye != place.at);
-  return placed_camera(set.unit_point(place.eye), set.unit_point(place.at), lens);
+  Vec3 eye = set.unit_point(place.eye);
+  if (eye == looked_at(place, set)) eye.z += 1e-3f;  // in the very middle of the model, or all but
+  return placed_camera(eye, looked_at(place, set), lens);
 }
 
 Stage stage_for(const RenderSettings& settings, const Set& set, const Camera& camera) {
@@ -174,9 +178,10 @@ void render_turntable(const Model& model, const MeshTable& meshes, const Surface
   const Camera first =
       settings.place ? placed(*settings.place, set, lens)
                      : frame_turning(set.corners, settings.azimuth_deg, settings.elevation_deg, lens, kMargin);
-  const Vec3 axis = settings.place ? set.unit_point(settings.place->at) : Vec3(0);
+  const Vec3 axis = settings.place ? looked_at(*settings.place, set) : Vec3(0);
   View view{set, stage_for(settings, set, first), first, settings.width, settings.height};
-  for (std::uint32_t frame = 0; frame < turntable.frames; ++frame) {
+  const std::uint32_t begin = turntable.only.value_or(0), end = turntable.only ? begin + 1 : turntable.frames;
+  for (std::uint32_t frame = begin; frame < end; ++frame) {
     view.camera = turned(first, axis, 360.0f * static_cast<float>(frame) / static_cast<float>(turntable.frames));
     if (!turntable.fixed_light) view.stage.to_key = make_stage(set.lowest, view.camera).to_key;
     take(frame, picture_of(view, settings.samples, executor));
