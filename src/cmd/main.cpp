@@ -172,7 +172,8 @@ void declare_render_camera(CLI::App* verb, RenderOptions& o) {
 void declare_render(CLI::App& app, CommandLine& line) {
   CLI::App* verb = app.add_subcommand("render", "Draw a derivation's model: a picture, or a turntable");
   RenderOptions& o = line.render;
-  verb->add_option("file", o.file, "A .derivation.json, a file made of one, or the folder of a run (its best)")->required();
+  verb->add_option("file", o.file, "A .derivation.json, a file made of one, or the folder of a run (its best)")
+      ->required();
   verb->add_option("--grammar", o.grammar, "Its grammar, if it is not in a run's folder");
   declare_attributes(verb, o.attributes);
   verb->add_option("-o,--out", o.out, "Picture to write: .png");

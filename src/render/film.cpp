@@ -75,7 +75,8 @@ Film::Film(std::uint32_t width, std::uint32_t height, bool ghosts)
       stride_((width + 2 * kBorder + 3) / 4 * 4),
       rests_(std::size_t{width} * height),
       veils_(ghosts ? rests_.size() : 0) {
-  for (std::vector<float>& plane : planes_) plane.resize(stride_ * (height + 2 * kBorder) + 8);  // vectors may reach beyond the last
+  // A vector may reach beyond the last pixel.
+  for (std::vector<float>& plane : planes_) plane.resize(stride_ * (height + 2 * kBorder) + 8);
 }
 
 void Film::put(std::uint32_t x, std::uint32_t y, const Pixel& pixel) {

@@ -71,6 +71,8 @@ class PixelTracer {
       // Far from all shadows half of the samples are enough.
       const float open = static_cast<float>(count);
       if (light.key < open || light.open < open) take(few_);
+      // In half shadow, where noise shows, twice as many.
+      if (light.key > 0 && light.key < static_cast<float>(count)) take(2 * few_);
       lit(view_, mean(light, count), sample);
     }
     return develop_plain(samples_);
@@ -85,11 +87,12 @@ class PixelTracer {
     }
   }
 
-  /// Light is gathered for the first samples of every surface, the fewer the more there are, and shared with the others.
+  /// Light is gathered for the first samples of every surface, the fewer the more there are, and shared with the rest.
   void light(const PixelSamples& places) {
     groups_.clear();
     group_of_.assign(samples_.size(), 0);
     std::uint32_t gathered = 0;
+    const std::uint32_t most = samples_.size() > few_ ? 2 * few_ : few_;  // only plain pixels are smoothed
     for (std::uint32_t s = 0; s < samples_.size(); ++s) {
       const Sample& sample = samples_[s];
       if (sample.layered || sample.seen == Seen::backdrop) continue;
@@ -99,7 +102,7 @@ class PixelTracer {
       if (g == groups_.size()) groups_.push_back({sample.surface, 0, sample.normal, {}});
       group_of_[s] = g;
       Group& group = groups_[g];
-      if (group.count >= few_ || (group.count > 0 && gathered >= 2 * few_)) continue;
+      if (group.count >= most || (group.count > 0 && gathered >= 3 * few_)) continue;
       add(gather(view_, sample, places.number(s)), group.light);
       ++group.count, ++gathered;
     }

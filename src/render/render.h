@@ -52,8 +52,8 @@ struct Turntable {
   std::optional<std::uint32_t> only;  // this frame alone
 };
 
-/// The camera goes round the vertical axis of the model, or round what `settings.place` looks at, against the clock seen from above.
-/// All frames have the same distance and lens, which show the model whole from all sides. Calls take(0, ..), take(1, ..)
+/// The camera goes round the vertical axis of the model, or round what `settings.place` looks at, against the clock seen
+/// from above. All frames have the same distance and lens, which show the model whole from all sides. Calls take(0, ..), take(1, ..)
 /// one after another.
 void render_turntable(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
                       const std::vector<Mesh>& ghosts, const RenderSettings& settings, const Turntable& turntable,

@@ -12,7 +12,7 @@ double fault_of(std::size_t frames, std::size_t columns, std::uint32_t width, st
   const std::size_t rows = (frames + columns - 1) / columns;
   const double ratio = 3.0 * static_cast<double>(columns * width) / (4.0 * static_cast<double>(rows * height));
   const double off = std::max(ratio, 1 / ratio);
-  return off + 4 * static_cast<double>(columns * rows - frames) / static_cast<double>(columns * rows);
+  return off + 12 * static_cast<double>(columns * rows - frames) / static_cast<double>(columns * rows);
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ std::string in_folder(const fs::path& folder) {
   if (fs::exists(folder / kSampleMarker))
     throw Error(fmt::format("{}: holds many samples; name one of its files, like {}", folder.string(),
                             (folder / ("01" + std::string(kEnding))).string()));
-  throw Error(fmt::format("{}: is no folder of a run: it holds no {} beside a best{}", folder.string(), kRunMarker, kEnding));
+  throw Error(fmt::format("{}: is no folder of a run: it holds no {} beside a best{}", folder.string(), kRunMarker,
+                          kEnding));
 }
 
 /// Whether a file is the derivation that has this hash.
@@ -67,8 +68,8 @@ std::string find_derivation(const std::string& path) {
       if (is_derivation(candidate, provenance.derivation)) return candidate.string();
     }
   }
-  throw Error(fmt::format("{}: holds no genes, and no {} with the derivation {} that it was made of lies beside it or in {}",
-                          path, kEnding, provenance.derivation, run.string()));
+  throw Error(fmt::format("{}: holds no genes, and no {} with the derivation {} that it was made of lies beside it or in "
+                          "{}", path, kEnding, provenance.derivation, run.string()));
 }
 
 }  // namespace espalier

@@ -1,5 +1,6 @@
 #pragma once
-// Finding the derivation behind a file: a derivation itself, a folder of a run, or a model or picture that was made of one.
+// Finding the derivation behind a file: a derivation itself, a folder of a run, or a model or picture that was made of
+// one.
 
 #include <string>
 

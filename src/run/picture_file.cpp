@@ -102,7 +102,8 @@ void prepare_frames(const std::string& folder, std::uint32_t frames) {
   if (error) throw Error(fmt::format("{}: cannot make the folder: {}", folder, error.message()));
   const fs::path next = fs::path(folder) / frame_name(frames);
   if (fs::exists(next))
-    throw Error(fmt::format("{}: is a frame of a longer turntable; remove those frames or name another folder", next.string()));
+    throw Error(fmt::format("{}: is a frame of a longer turntable; remove those frames or name another folder",
+                            next.string()));
 }
 
 void check_strip(const PictureRequest& request) {
@@ -118,7 +119,8 @@ void check_strip(const PictureRequest& request) {
 void check(const PictureJob& job) {
   check(job.request);
   const bool turntable = job.request.frames > 0;
-  if (job.out.empty() && job.frames.empty()) throw Error("nothing to write: give -o FILE.png, or --frames with --turntable");
+  if (job.out.empty() && job.frames.empty()) 
+    throw Error("nothing to write: give -o FILE.png, or --frames with --turntable");
   if (!job.out.empty() && !job.out.ends_with(".png")) throw Error(fmt::format("{}: render writes .png", job.out));
   if (!job.frames.empty() && !turntable) throw Error("--frames needs --turntable");
   if (turntable && !job.out.empty()) check_strip(job.request);

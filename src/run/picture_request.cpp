@@ -44,7 +44,8 @@ void check_turntable(const PictureRequest& r) {
     return;
   }
   check_range("--turntable", r.frames, 2, PictureRequest::kMostFrames);
-  if (r.columns > r.frames) throw Error(fmt::format("--columns must be at most the {} frames, got {}", r.frames, r.columns));
+  if (r.columns > r.frames)
+    throw Error(fmt::format("--columns must be at most the {} frames, got {}", r.frames, r.columns));
 }
 
 std::string vector_text(const Vec3& v) {
@@ -67,7 +68,8 @@ Vec3 color_of(const std::string& text) {
 void check(const PictureRequest& r) {
   for (const std::uint32_t side : r.size) check_range("--size", side, 1, PictureRequest::kMostSide);
   if (std::uint64_t{r.size[0]} * r.size[1] > PictureRequest::kMostPixels)
-    throw Error(fmt::format("--size must be at most {} pixels, got {}x{}", PictureRequest::kMostPixels, r.size[0], r.size[1]));
+    throw Error(fmt::format("--size must be at most {} pixels, got {}x{}", PictureRequest::kMostPixels, r.size[0],
+                            r.size[1]));
   check_range("--samples", r.samples, 1, 256);
   check_camera(r);
   check_turntable(r);

@@ -1,6 +1,6 @@
 #pragma once
-// PictureRequest: what a picture or a turntable is to show and how: the options of `espalier render`. Plain data; its TOML
-// lies in the provenance of the picture, so that it can be made again.
+// PictureRequest: what a picture or a turntable is to show and how: the options of `espalier render`. Plain data; its
+// TOML lies in the provenance of the picture, so that it can be made again.
 
 #include <array>
 #include <cstdint>
