@@ -20,7 +20,7 @@ double fault_of(std::size_t frames, std::size_t columns, std::uint32_t width, st
 std::uint32_t strip_columns(std::size_t frames, std::uint32_t width, std::uint32_t height) {
   std::size_t best = 1;
   for (std::size_t columns = 2; columns <= frames; ++columns) {
-    if (fault_of(frames, columns, width, height) < fault_of(frames, best, width, height)) best = columns;
+    if (fault_of(frames, columns, width, height) <= fault_of(frames, best, width, height)) best = columns;
   }
   return static_cast<std::uint32_t>(best);
 }
