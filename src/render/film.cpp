@@ -15,6 +15,7 @@ namespace espalier {
 namespace {
 
 constexpr int kCurveSteps = 8192;
+constexpr float kChangeScale = 12;  // of the sum of three channels: a change of light of 3 % halves a far tap's weight
 
 /// 8-bit sRGB of a linear value by a table, fine enough that every byte has several entries.
 std::uint8_t developed(float linear) {
@@ -99,6 +100,7 @@ void Film::smooth_four(std::size_t at, std::ptrdiff_t step, float* const (&out)[
   const Float4 n[3] = {load(kNormal, 0), load(kNormal + 1, 0), load(kNormal + 2, 0)};
   const Float4 p[3] = {load(kPosition, 0), load(kPosition + 1, 0), load(kPosition + 2, 0)};
   const Float4 old[3] = {load(kLight, 0), load(kLight + 1, 0), load(kLight + 2, 0)};
+  const float change_scale = step > 2 ? kChangeScale : 0;
   Float4 sum[3] = {Float4(0), Float4(0), Float4(0)}, weights(0);
   for (int j = -2; j <= 2; ++j) {
     for (int i = -2; i <= 2; ++i) {
@@ -109,9 +111,11 @@ void Film::smooth_four(std::size_t at, std::ptrdiff_t step, float* const (&out)[
       const Float4 off_plane = (n[0] * (load(kPosition, tap) - p[0]) + n[1] * (load(kPosition + 1, tap) - p[1]) +
                                 n[2] * (load(kPosition + 2, tap) - p[2])) * Float4(150);
       const Float4 l2 = likeness * likeness, l4 = l2 * l2;
+      const Float4 light[3] = {load(kLight, tap), load(kLight + 1, tap), load(kLight + 2, tap)};
+      const Float4 change = (light[0] - old[0] + (light[1] - old[1]) + (light[2] - old[2])) * Float4(change_scale);
       const Float4 weight = where(like, Float4(kKernel[std::abs(i)] * kKernel[std::abs(j)]) * l4 * l4 /
-                                            (Float4(1) + off_plane * off_plane));
-      for (int c = 0; c < 3; ++c) sum[c] = sum[c] + weight * load(kLight + c, tap);
+                                            (Float4(1) + off_plane * off_plane + change * change));
+      for (int c = 0; c < 3; ++c) sum[c] = sum[c] + weight * light[c];
       weights = weights + weight;
     }
   }

@@ -135,7 +135,7 @@ Picture picture_of(const View& view, int samples, Executor& executor) {
         film.put(x, y, tracer.trace(x, y, coverage.may_show(x, y)));
     }
   });
-  for (const std::uint32_t step : {1u, 2u}) film.smooth_light(step, executor);
+  for (const std::uint32_t step : {1u, 2u, 4u}) film.smooth_light(step, executor);
   return film.develop(view, executor);
 }
 

@@ -97,13 +97,16 @@ Vec3 mirrored_part(const View& view, const Ray& ray, const Tracer::Hit& hit) {
 void gather_mirrored(const View& view, const Sample& sample, const Vec3& start, std::uint32_t number, Light& light) {
   const float n_v = std::max(glm::dot(sample.normal, sample.to_eye), 0.0f);
   const Vec3 mirror = 2 * n_v * sample.normal - sample.to_eye;
+  if (!(sample.metal > kMirrors)) {  // a faint sheen: the middle of what it mirrors will do, and has no noise
+    light.mirrored = studio(glm::normalize(mirror + 0.5f * sample.roughness * (sample.normal - mirror)),
+                            view.stage.to_key);
+    return;
+  }
   const Vec3 direction = in_cone(mirror, 0.02f + 0.7f * sample.roughness, view.stage.tables->in_lobe(number));
-  if (sample.metal > kMirrors) {
-    const Ray ray{start, direction, 0};
-    if (const Tracer::Hit hit = view.set.opaque.intersect(ray, kSkyReach)) {
-      light.mirrored = mirrored_part(view, ray, hit);
-      return;
-    }
+  const Ray ray{start, direction, 0};
+  if (const Tracer::Hit hit = view.set.opaque.intersect(ray, kSkyReach)) {
+    light.mirrored = mirrored_part(view, ray, hit);
+    return;
   }
   light.mirrored = studio(direction, view.stage.to_key);
 }
