@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model/model.h"
+#include "score/fold_scratch.h"
 #include "score/outline.h"
 #include "score/pixel_canvas.h"
 #include "score/target.h"
@@ -47,6 +48,7 @@ class SilhouetteScratch final : public TargetScratch {
 
   PixelCanvas canvas;
   OutlineMaker maker;
+  FoldScratch folds;
 };
 
 class SilhouetteKernel {
