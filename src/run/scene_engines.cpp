@@ -60,6 +60,7 @@ void read_ga(TomlSection& s, GaSettings& ga) {
   take(ga.reuse_scores, s.boolean("reuse_scores"));
   take(ga.restart_after, s.whole("restart_after", 0, 1'000'000'000));
   take(ga.unique, s.boolean("unique"));
+  take(ga.join, s.boolean("join"));
 }
 
 /// A table that settings of an engine come from; later ones win.
@@ -152,9 +153,9 @@ std::string search_to_toml(const SceneSearch& search) {
   text += fmt::format("first = \"{}\"\nsecond = \"{}\"\ntournament_size = {}\n", word_for(kSelectionSchemes, ga.first),
                       word_for(kSelectionSchemes, ga.second), ga.tournament_size);
   return text + fmt::format("crossover = \"{}\"\nretries = {}\nreplace_probability = {}\nreuse_scores = {}\n"
-                            "unique = {}\nrestart_after = {}\n",
+                            "unique = {}\njoin = {}\nrestart_after = {}\n",
                             word_for(kCompatibilities, ga.crossover), ga.retries, format_toml(ga.replace_probability),
-                            ga.reuse_scores, ga.unique, ga.restart_after);
+                            ga.reuse_scores, ga.unique, ga.join, ga.restart_after);
 }
 
 }  // namespace espalier

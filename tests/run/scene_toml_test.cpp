@@ -294,6 +294,7 @@ TEST(Scene, AnEngineHasSettingsOfItsOwn) {
   EXPECT_EQ(ga(both, {{"search.population=77"}, {}}).population, 77u) << "and the command line over both";
   EXPECT_EQ(ga(both, {{"engine.ga.population=78"}, {}}).population, 78u);
   EXPECT_EQ(ga(both, {{"search.preset=ga-2017-city"}, {}}).mutation, 0.4);
+  EXPECT_EQ(ga("[engine.ga]\njoin = true\n").join, true);
 }
 
 TEST(Scene, SettingsWrittenForAnEngineTakeTheSameOverrides) {
