@@ -41,12 +41,14 @@ void GaEngine::step() {
   } else {
     newcomers_.resize(settings_.population);
     scored_.assign(settings_.population, 0);
+    parents_.assign(settings_.population, Child::kNone);
     make_next_generation();
     score_newcomers();
     while (!rejected_.empty()) {
       redraw_children();
       score_newcomers();
     }
+    if (settings_.join) join_gains();
   }
   sort_newcomers();
   if (steps_ == 0 || population_.front().score > best_.score) best_ = population_.front();

@@ -11,12 +11,13 @@
 namespace espalier {
 namespace {
 
-constexpr std::array<GaPreset, 5> kPresets = {{
+constexpr std::array<GaPreset, 6> kPresets = {{
     {"ga-2017", "ShapeGenetics 2017, section 8, trees and spaceships"},
     {"ga-2017-city", "ShapeGenetics 2017, section 8, cities: more mutation"},
     {"ga-2016", "Haubenwallner et al. 2016, section 4.2: the baseline"},
     {"ga-2016-final", "Haubenwallner et al. 2016, section 4.3: the final parameters"},
     {"ga-local", "ga-2017 with nudges, no twins, and a new population where one has stalled"},
+    {"ga-large", "for models of thousands of genes: small steps from the best, and what several gained is joined"},
 }};
 
 void require_shares(const GaSettings& s) {
@@ -48,6 +49,22 @@ GaSettings baseline_2016() {
   return s;
 }
 
+// A tree that follows a drawing: nearly all that is won is won by small changes of the best individual, each in a place
+// of its own. Fewer individuals go further: 30 for 81 % of a drawing after 8 000 evaluations, 60 for 78 %, 120 for 53 %.
+GaSettings for_large_models() {
+  GaSettings s;
+  s.population = 30;
+  s.elitism = 4;
+  s.initial_length_min = s.initial_length_max = 60;
+  s.mutation = 0.9;
+  s.grow = 1, s.cut = 0.5, s.alter = 0.2, s.nudge = 1;
+  s.first = s.second = SelectionScheme::tournament;
+  s.tournament_size = 1000;
+  s.unique = true;
+  s.join = true;
+  return s;
+}
+
 }  // namespace
 
 void validate(const GaSettings& s) {
@@ -64,11 +81,11 @@ void validate(const GaSettings& s) {
 
 std::string to_text(const GaSettings& s) {
   return fmt::format("P {} E {} L {}..{} mutation {} {} {} {} nudge {} select {} {} {} cross {} {} {} genes {}..{} "
-                     "reuse {} unique {} restart {}",
+                     "reuse {} unique {} join {} restart {}",
                      s.population, s.elitism, s.initial_length_min, s.initial_length_max, s.mutation, s.grow, s.cut,
                      s.alter, s.nudge, name_of(s.first), name_of(s.second), s.tournament_size,
                      static_cast<int>(s.crossover), s.retries, s.replace_probability, s.genes.min, s.genes.max,
-                     s.reuse_scores, s.unique, s.restart_after);
+                     s.reuse_scores, s.unique, s.join, s.restart_after);
 }
 
 std::span<const GaPreset> ga_presets() { return kPresets; }
@@ -90,6 +107,7 @@ GaSettings ga_preset(std::string_view name) {
     s.restart_after = 150;
     return s;
   }
+  if (name == "ga-large") return for_large_models();
   if (name == "ga-2016") return baseline_2016();
   if (name == "ga-2016-final") {
     s = baseline_2016();

@@ -12,7 +12,7 @@ namespace espalier {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x0a41'4750'5345ull;  // the bytes "ESPGA\n"
-constexpr std::uint64_t kStateVersion = 4;
+constexpr std::uint64_t kStateVersion = 5;
 
 }  // namespace
 
