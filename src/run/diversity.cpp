@@ -1,5 +1,7 @@
 #include "run/diversity.h"
 
+#include "derivation/sample.h"
+
 namespace espalier {
 
 DiverseArchive::DiverseArchive(ModelSketcher sketcher, std::size_t size, double least_distance)
@@ -10,6 +12,7 @@ void DiverseArchive::offer(std::span<const Individual> population) {
     const double score = population[i].score;
     if (members_.size() == size_ && (size_ == 0 || score <= members_.back().score)) return;
     if (i > 0 && score == population[i - 1].score) continue;  // a twin, as good as always
+    if (!is_finished(population[i].derivation)) continue;
     offer(population[i]);
   }
 }

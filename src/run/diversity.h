@@ -16,7 +16,8 @@ class DiverseArchive {
  public:
   DiverseArchive(ModelSketcher sketcher, std::size_t size, double least_distance);
 
-  /// `population` is sorted, best first. Of equal scores in a row only the first is looked at.
+  /// `population` is sorted, best first. Of equal scores in a row only the first is looked at; of
+  /// unfinished individuals none.
   void offer(std::span<const Individual> population);
   /// Best first.
   const std::vector<Individual>& members() const { return members_; }

@@ -81,7 +81,7 @@ class LiveReport::Painter {
     p.made_by = "run";
     p.seed = setup_.scene.seed;
     p.steps = result_.steps;
-    p.engine = setup_.scene.search.engine;
+    p.engine = name_of(setup_.scene.search.engine);
     p.inputs = setup_.inputs.hashes();
     p.settings = settings_;
     p.settings_folder = ".";

@@ -78,7 +78,7 @@ std::string ended_by(const std::string& reason) {
 std::string search_line(const ReportInput& input) {
   const SearchResult& r = input.result;
   return fmt::format("{} evaluations in {} steps of {}, {}", readable_number(static_cast<double>(r.evaluations)),
-                     readable_number(static_cast<double>(r.steps)), escape_html(input.setup.scene.search.engine),
+                     readable_number(static_cast<double>(r.steps)), name_of(input.setup.scene.search.engine),
                      ended_by(r.stopped_by));
 }
 

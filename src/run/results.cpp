@@ -54,7 +54,7 @@ Provenance ResultWriter::provenance(std::size_t index, const std::string& settin
   p.seed = setup_.scene.seed;
   p.steps = result_.steps;
   p.index = index;
-  p.engine = setup_.scene.search.engine;
+  p.engine = name_of(setup_.scene.search.engine);
   p.inputs = setup_.inputs.hashes();
   p.settings = settings_;
   p.settings_folder = settings_folder;

@@ -34,7 +34,7 @@ void ResultWriter::write_result(const std::string& path) const {
       {"espalier_result", 1},
       {"version", kVersion},
       {"grammar", setup_.graph().name},
-      {"engine", setup_.scene.search.engine},
+      {"engine", name_of(setup_.scene.search.engine)},
       {"seed", setup_.scene.seed},
       {"score", result_.best.score},
       {"optimum", e.optimum},

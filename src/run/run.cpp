@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 RunStart start_of(const Setup& setup, const RunOptions& options, const RunFolder& folder, const Executor& executor) {
   RunStart start;
   start.grammar = setup.graph().name;
-  start.engine = setup.scene.search.engine;
+  start.engine = name_of(setup.scene.search.engine);
   start.out = options.out;
   start.seed = setup.scene.seed;
   start.optimum = setup.objective.optimum();

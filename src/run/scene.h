@@ -8,13 +8,14 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/vec.h"
 #include "score/limit.h"
 #include "score/silhouette_target.h"
 #include "score/volume_target.h"
-#include "search/ga_settings.h"
+#include "search/hybrid_settings.h"
 
 namespace espalier {
 
@@ -27,10 +28,19 @@ struct SceneBudget {
   bool operator==(const SceneBudget&) const = default;
 };
 
+enum class EngineKind : std::uint8_t { ga, smc, sosmc, rjmcmc, hybrid };
+inline constexpr std::array<std::string_view, 5> kEngineNames = {"ga", "smc", "sosmc", "rjmcmc", "hybrid"};
+inline std::string_view name_of(EngineKind engine) { return kEngineNames[static_cast<std::size_t>(engine)]; }
+
+/// Settings of all engines; `genes` of each comes from the limits, and an `initial_length` that is not given from `ga`.
 struct SceneSearch {
-  std::string engine = "ga";
+  EngineKind engine = EngineKind::ga;
   std::string preset = "ga-2017";
-  GaSettings ga;  // the preset with the scene's own values; `genes` comes from the limits
+  GaSettings ga;  // the preset with the scene's own values
+  SmcSettings smc = {.order = SlotOrder::depth_first};
+  SmcSettings sosmc;
+  RjmcmcSettings rjmcmc;
+  HybridSettings hybrid;  // but not those of its engines, which are the ones above
 
   bool operator==(const SceneSearch&) const = default;
 };

@@ -1,51 +1,40 @@
 #include "run/scene_engines.h"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "run/initial_length.h"
 #include "run/scene_choices.h"
+#include "run/scene_samplers.h"
 #include "run/toml_section.h"
 
 namespace espalier {
 namespace {
 
-constexpr std::array<std::string_view, 1> kEngines = {"ga"};
-
 std::string known_engines() {
   std::string names;
-  for (const std::string_view name : kEngines) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
+  for (const std::string_view name : kEngineNames) names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
   return names;
 }
 
-bool is_engine(std::string_view name) { return std::find(kEngines.begin(), kEngines.end(), name) != kEngines.end(); }
+std::optional<EngineKind> engine_named(std::string_view name) {
+  const auto found = std::find(kEngineNames.begin(), kEngineNames.end(), name);
+  if (found == kEngineNames.end()) return std::nullopt;
+  return static_cast<EngineKind>(found - kEngineNames.begin());
+}
 
 template <typename T, typename U>
 void take(T& place, const std::optional<U>& value) {
   if (value) place = static_cast<T>(*value);
 }
 
-// One number, or [from, to].
-void read_initial_length(TomlSection& s, GaSettings& ga) {
-  const TomlValue* value = s.member("initial_length");
-  if (!value) return;
-  if (value->kind == TomlValue::Kind::array) {
-    const auto range = *s.wholes("initial_length", 2, 1, 1'000'000);
-    ga.initial_length_min = static_cast<std::uint32_t>(range[0]);
-    ga.initial_length_max = static_cast<std::uint32_t>(range[1]);
-  } else {
-    ga.initial_length_min = ga.initial_length_max =
-        static_cast<std::uint32_t>(*s.whole("initial_length", 1, 1'000'000));
-  }
-}
-
 /// All but the preset.
 void read_ga(TomlSection& s, GaSettings& ga) {
   take(ga.population, s.whole("population", 2, 1'000'000));
   take(ga.elitism, s.whole("elitism", 0, 1'000'000));
-  read_initial_length(s, ga);
+  read_initial_length(s, ga.initial_length_min, ga.initial_length_max);
   take(ga.mutation, s.number("mutation", 0, 1));
   take(ga.grow, s.number("grow", 0, 1e6));
   take(ga.cut, s.number("cut", 0, 1e6));
@@ -69,10 +58,10 @@ struct Source {
   std::string path;
 };
 
-/// The members that were set on the command line.
-TomlValue set_by_hand(const TomlValue& table) {
+/// The members that were set on the command line, or those that were not.
+TomlValue only(const TomlValue& table, bool set_by_hand) {
   TomlValue result = table;
-  std::erase_if(result.members, [](const auto& member) { return member.second.line != 0; });
+  std::erase_if(result.members, [&](const auto& member) { return (member.second.line == 0) != set_by_hand; });
   return result;
 }
 
@@ -90,46 +79,49 @@ void read_preset(const std::vector<Source>& sources, const std::string& file, Sc
   }
 }
 
-void read_ga_settings(const std::vector<Source>& sources, const std::string& file, SceneSearch& search) {
-  read_preset(sources, file, search);
+template <typename Read>
+void read_settings(const std::vector<Source>& sources, const std::string& file, Read read) {
   for (const Source& source : sources) {
     TomlSection s(source.table, file, source.path);
     if (source.path == "search") s.member("engine");
-    s.member("preset");
-    read_ga(s, search.ga);
+    read(s);
     s.finish();
   }
 }
 
-std::string read_engine(const TomlValue& table, const std::string& file) {
+EngineKind read_engine(const TomlValue& table, const std::string& file) {
   TomlSection s(table, file, "search");
   const std::string engine = s.text("engine").value_or("ga");
-  if (!is_engine(engine)) s.fail("engine", fmt::format("must be one of {}, got {}", known_engines(), quote_toml(engine)));
-  return engine;
+  const std::optional<EngineKind> kind = engine_named(engine);
+  if (!kind) s.fail("engine", fmt::format("must be one of {}, got {}", known_engines(), quote_toml(engine)));
+  return *kind;
 }
 
 void check_names(const TomlValue& engines, const std::string& file) {
   TomlSection s(engines, file, "engine");
   for (const auto& [name, settings] : engines.members) {
-    if (!is_engine(name)) s.fail(name, fmt::format("is no engine; there is {}", known_engines()));
+    if (!engine_named(name)) s.fail(name, fmt::format("is no engine; there is {}", known_engines()));
     s.table(name);  // and nothing else
   }
 }
 
-/// What [search] says is meant for the engine that is chosen.
-std::vector<Source> sources_for(const std::string& engine, const std::string& chosen, const TomlValue& common,
-                                const TomlValue* engines) {
-  const TomlValue* const own = engines ? engines->find(engine) : nullptr;
-  std::vector<Source> sources;
-  if (engine == chosen) sources.push_back({common, "search"});
-  if (own) sources.push_back({*own, "engine." + engine});
-  if (own && engine == chosen) sources.push_back({set_by_hand(common), "search"});
-  return sources;
+/// A sampler that says nothing of first individuals makes them as the genetic algorithm does.
+template <typename Settings>
+void settle_lengths(const GaSettings& ga, Settings& settings) {
+  if (settings.initial_length_min > 0) return;
+  settings.initial_length_min = ga.initial_length_min, settings.initial_length_max = ga.initial_length_max;
 }
 
 }  // namespace
 
-void read_search(const TomlValue& document, const std::string& file, SceneSearch& search) {
+std::string engine_of_file(const TomlValue& document) {
+  const TomlValue* const table = document.find("search");
+  const TomlValue* const engine = table ? table->find("engine") : nullptr;
+  return engine && engine_named(engine->text) ? engine->text : "ga";
+}
+
+void read_search(const TomlValue& document, const std::string& engine_of_file, const std::string& file,
+                 SceneSearch& search) {
   TomlSection root(document, file, "");
   const TomlValue nothing;
   const TomlValue* const table = root.table("search");
@@ -137,25 +129,62 @@ void read_search(const TomlValue& document, const std::string& file, SceneSearch
   const TomlValue& common = table ? *table : nothing;
   search.engine = read_engine(common, file);
   if (engines) check_names(*engines, file);
-  read_ga_settings(sources_for("ga", search.engine, common, engines), file, search);
+  const auto sources = [&](std::string_view engine) {
+    std::vector<Source> all;
+    if (engine == engine_of_file) all.push_back({only(common, false), "search"});
+    const TomlValue* const own = engines ? engines->find(engine) : nullptr;
+    if (own) all.push_back({*own, fmt::format("engine.{}", engine)});
+    if (engine == name_of(search.engine)) all.push_back({only(common, true), "search"});
+    return all;
+  };
+  read_preset(sources("ga"), file, search);
+  read_settings(sources("ga"), file, [&](TomlSection& s) {
+    s.member("preset");
+    read_ga(s, search.ga);
+  });
+  for (SmcSettings* smc : {&search.smc, &search.sosmc}) smc->initial_length_min = 0;
+  search.rjmcmc.initial_length_min = 0;
+  read_settings(sources("smc"), file, [&](TomlSection& s) { read_smc(s, search.smc); });
+  read_settings(sources("sosmc"), file, [&](TomlSection& s) { read_smc(s, search.sosmc); });
+  read_settings(sources("rjmcmc"), file, [&](TomlSection& s) { read_rjmcmc(s, search.rjmcmc); });
+  read_settings(sources("hybrid"), file, [&](TomlSection& s) { read_hybrid(s, search.hybrid); });
+  settle_lengths(search.ga, search.smc);
+  settle_lengths(search.ga, search.sosmc);
+  settle_lengths(search.ga, search.rjmcmc);
+}
+
+void share_limits(SceneSearch& search) {
+  search.smc.genes = search.sosmc.genes = search.rjmcmc.genes = search.ga.genes;
+}
+
+void validate_search(const SceneSearch& search) {
+  HybridSettings hybrid = search.hybrid;
+  hybrid.start = search.sosmc, hybrid.middle = search.ga, hybrid.end = search.rjmcmc;
+  switch (search.engine) {
+    case EngineKind::ga: return validate(search.ga);
+    case EngineKind::smc: return validate(search.smc);
+    case EngineKind::sosmc: return validate(search.sosmc);
+    case EngineKind::rjmcmc: return validate(search.rjmcmc);
+    case EngineKind::hybrid: return validate(hybrid);
+  }
 }
 
 std::string search_to_toml(const SceneSearch& search) {
   const GaSettings& ga = search.ga;
-  std::string text = fmt::format("[search]\nengine = {}\n\n[engine.ga]\npreset = {}\n", quote_toml(search.engine),
+  std::string text = fmt::format("[search]\nengine = {}\n\n[engine.ga]\npreset = {}\n", quote_toml(name_of(search.engine)),
                                  quote_toml(search.preset));
   text += fmt::format("population = {}\nelitism = {}\n", ga.population, ga.elitism);
-  text += ga.initial_length_min == ga.initial_length_max
-              ? fmt::format("initial_length = {}\n", ga.initial_length_min)
-              : fmt::format("initial_length = [{}, {}]\n", ga.initial_length_min, ga.initial_length_max);
+  text += initial_length_line(ga.initial_length_min, ga.initial_length_max);
   text += fmt::format("mutation = {}\ngrow = {}\ncut = {}\nalter = {}\nnudge = {}\n", format_toml(ga.mutation),
                       format_toml(ga.grow), format_toml(ga.cut), format_toml(ga.alter), format_toml(ga.nudge));
   text += fmt::format("first = \"{}\"\nsecond = \"{}\"\ntournament_size = {}\n", word_for(kSelectionSchemes, ga.first),
                       word_for(kSelectionSchemes, ga.second), ga.tournament_size);
-  return text + fmt::format("crossover = \"{}\"\nretries = {}\nreplace_probability = {}\nreuse_scores = {}\n"
-                            "unique = {}\njoin = {}\nrestart_after = {}\n",
-                            word_for(kCompatibilities, ga.crossover), ga.retries, format_toml(ga.replace_probability),
-                            ga.reuse_scores, ga.unique, ga.join, ga.restart_after);
+  text += fmt::format("crossover = \"{}\"\nretries = {}\nreplace_probability = {}\nreuse_scores = {}\n"
+                      "unique = {}\njoin = {}\nrestart_after = {}\n",
+                      word_for(kCompatibilities, ga.crossover), ga.retries, format_toml(ga.replace_probability),
+                      ga.reuse_scores, ga.unique, ga.join, ga.restart_after);
+  return text + fmt::format("\n[engine.smc]\n{}\n[engine.sosmc]\n{}\n[engine.rjmcmc]\n{}\n[engine.hybrid]\n{}",
+                            to_toml(search.smc), to_toml(search.sosmc), to_toml(search.rjmcmc), to_toml(search.hybrid));
 }
 
 }  // namespace espalier

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "run/toml_section.h"
-#include "search/hybrid.h"
+#include "search/hybrid_settings.h"
 
 namespace espalier {
 

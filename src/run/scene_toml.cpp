@@ -129,14 +129,14 @@ void check_whole(const TomlValue& root, TomlSection& s, const Scene& scene) {
     s.fail("budget", "must give seconds, evaluations or generations: a search has to end");
   }
   try {
-    validate(scene.search.ga);
+    validate_search(scene.search);
   } catch (const Error& error) {
     // Rules on several settings at once: told where the scene speaks of the search.
     const TomlValue* const engines = root.find("engine");
-    const TomlValue* const own = engines ? engines->find(scene.search.engine) : nullptr;
+    const TomlValue* const own = engines ? engines->find(name_of(scene.search.engine)) : nullptr;
     const TomlValue* const place = own ? own : root.find("search");
     throw Error(fmt::format("{}:{}:{}: {}.{}", s.file(), place ? place->line : 1, place ? place->column : 1,
-                            own ? "engine." + scene.search.engine : "search", error.what()));
+                            own ? fmt::format("engine.{}", name_of(scene.search.engine)) : "search", error.what()));
   }
 }
 
@@ -146,6 +146,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
                   const SceneOverrides& overrides) {
   if (text.find('\0') != std::string_view::npos) throw Error(fmt::format("{}: must be text, got binary data", name));
   TomlValue root = parse_toml(text, name);
+  const std::string named_engine = engine_of_file(root);
   for (const std::string& setting : overrides.settings) apply_setting(root, setting);
 
   Scene scene;
@@ -161,7 +162,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   override_attributes(overrides.attributes, scene.attributes);
   if (const TomlValue* t = s.table("budget")) read_budget(*t, name, scene.budget);
   s.table("search"), s.table("engine");
-  read_search(root, name, scene.search);
+  read_search(root, named_engine, name, scene.search);
   if (const TomlValue* t = s.table("limits")) read_limits(*t, name, scene);
   if (const TomlValue* t = s.table("volume")) read_volume(*t, name, scene.volume);
   if (const std::vector<TomlValue>* list = s.tables("silhouette")) {
@@ -172,6 +173,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
     s.fail("volume", "must be given, or [[silhouette]]: a search needs meshes to fill or images to look like");
   if (const TomlValue* t = s.table("output")) read_output(*t, name, scene);
   s.finish();
+  share_limits(scene.search);
   check_whole(root, s, scene);
   return scene;
 }

@@ -4,8 +4,8 @@
 
 #include "base/check.h"
 #include "run/diversity.h"
+#include "run/make_engine.h"
 #include "run/scene_scorer.h"
-#include "search/ga.h"
 
 namespace espalier {
 namespace {
@@ -49,9 +49,10 @@ double mean_score(std::span<const Individual> population) {
 }  // namespace
 
 std::optional<SearchResult> run_search(const Setup& setup, const SearchControl& control, Executor& executor) {
-  CHECK(setup.scene.search.engine == "ga");
   SceneScorer scorer(setup.graph(), setup.objective, executor);
-  GaEngine engine({setup.grammar.graph, {}, &scorer, setup.scene.seed, 0}, setup.scene.search.ga);
+  const SearchProblem problem = {setup.grammar.graph, {}, &scorer, setup.scene.seed, 0};
+  const std::unique_ptr<Engine> made = make_engine(setup.scene.search, problem);
+  Engine& engine = *made;
   DiverseArchive archive = make_archive(setup);
 
   SearchResult result;

@@ -25,9 +25,9 @@ struct SmcSettings {
   Resampling resampling = Resampling::systematic;
   double resample_below = 0.5;          // share of particles: resample where the effective size is below; 1 = every step
   ParticleWeight weight = ParticleWeight::exponential;
-  std::optional<double> temperature;    // > 0; none: a hundredth of the optimum, or 1 where that is not above 0
+  std::optional<double> temperature = std::nullopt;  // > 0; none: a hundredth of the optimum, or 1 where that is not above 0
   std::uint32_t initial_length_min = 50, initial_length_max = 50;  // of the one individual that is there from the start
-  GeneLimits genes;
+  GeneLimits genes = {};
 
   bool operator==(const SmcSettings&) const = default;
 };

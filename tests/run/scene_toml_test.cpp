@@ -306,7 +306,7 @@ TEST(Scene, SettingsWrittenForAnEngineTakeTheSameOverrides) {
 
 TEST(Scene, BadSettingsOfEnginesAreNamed) {
   EXPECT_THAT(error_of(with_line("engine.gaa", "population = 5")),
-              HasSubstr("s.toml:7:1: engine.gaa is no engine; there is \"ga\""));
+              HasSubstr("s.toml:7:1: engine.gaa is no engine; there is \"ga\", \"smc\""));
   EXPECT_THAT(error_of(with_line("engine.ga", "population = 1")),
               HasSubstr("s.toml:8:14: engine.ga.population must be a whole number from 2 to 1000000, got 1"));
   EXPECT_THAT(error_of(with_line("engine.ga", "populaton = 9")), HasSubstr("did you mean engine.ga.population?"));
@@ -314,7 +314,7 @@ TEST(Scene, BadSettingsOfEnginesAreNamed) {
   EXPECT_THAT(error_of(with_line("engine.ga", "elitism = 150")), HasSubstr("engine.ga.elitism must be between 0 and 149"));
   EXPECT_THAT(error_of(with_line("engine.ga", "preset = \"x\"")), HasSubstr("s.toml:8:10: engine.ga.preset must be one of"));
   EXPECT_THAT(error_of(with_line("engine", "ga = 3")), HasSubstr("engine.ga must be a table, got 3"));
-  EXPECT_THAT(error_of(kLeast, {{"search.engine=smc2"}, {}}), HasSubstr("search.engine must be one of \"ga\", got \"smc2\""));
+  EXPECT_THAT(error_of(kLeast, {{"search.engine=smc2"}, {}}), HasSubstr("search.engine must be one of \"ga\", \"smc\", \"sosmc\", \"rjmcmc\", \"hybrid\", got \"smc2\""));
 }
 
 TEST(Scene, BadOverridesSayWhereTheyCameFrom) {
