@@ -164,12 +164,11 @@ def tube():
     write_obj("tube.obj", "an upright tube, to be kept clear of", vertices, quads)
 
 
-def castle():
-    """A castle on lots of 2.2 m: four towers, walls between them, a court and a keep. Columns of cubes, and of their faces
-    those between inside and outside."""
+def castle(name, n):
+    """A castle on n x n lots of 2.2 m: four towers, walls between them, a court and a keep. Columns of cubes, and of their
+    faces those between inside and outside."""
     lot = 2.2
     levels = [0.0, 1.2, 4.2, 8.0, 9.8]
-    n = 8
 
     def height(i, j):
         edge_i, edge_j = min(i, n - 1 - i), min(j, n - 1 - j)
@@ -177,7 +176,7 @@ def castle():
             return 3  # towers of 2 x 2 lots
         if edge_i == 0 or edge_j == 0:
             return 2  # walls of one lot
-        if edge_i == 3 and edge_j == 3:
+        if edge_i == (n - 1) // 2 and edge_j == (n - 1) // 2:
             return 4  # the keep
         return 1
 
@@ -204,7 +203,7 @@ def castle():
                 for (di, dk, dj), face in faces.items():
                     if not inside(i + di, j + dj, k + dk):
                         quads.append([corner(i + a, k + b, j + c) for a, b, c in face])
-    write_obj("castle.obj", "a castle: towers, walls, court and keep", vertices, quads)
+    write_obj(name, "a castle: towers, walls, court and keep", vertices, quads)
 
 
 if __name__ == "__main__":
@@ -213,4 +212,5 @@ if __name__ == "__main__":
     crown()
     canopy()
     tube()
-    castle()
+    castle("castle.obj", 8)
+    castle("castle-odd.obj", 7)  # its middle is a lot
