@@ -133,7 +133,8 @@ HWY_INLINE void draw_lane(const OutlineBatch& b, BatchKind kind, int lane, Pixel
   if (box.column[0] >= box.column[1] || box.row[0] >= box.row[1]) return;
   switch (kind) {
     case BatchKind::sphere:
-      draw_spans(box, canvas, [&](float, float, const F8& y, RowSpans& spans) { spans.add(ellipse_of(b, 0, lane), y); });
+      draw_spans(box, canvas,
+                 [&](float, float, const F8& y, RowSpans& spans) { spans.add(ellipse_of(b, 0, lane), y); });
       break;
     case BatchKind::round:
       draw_spans(box, canvas, [&](float, float, const F8& y, RowSpans& spans) {
