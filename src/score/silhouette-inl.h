@@ -126,7 +126,7 @@ HWY_INLINE void draw_hexagon(const OutlineBatch& b, int lane, const SpanBox& box
   });
 }
 
-/// One part of a batch. Testing which pieces a tile needs would cost more than what it saves: parts are small.
+/// One part of a batch. Balls and cones work out all pieces in all tiles, so that there are no jumps to guess wrong.
 HWY_INLINE void draw_lane(const OutlineBatch& b, BatchKind kind, int lane, PixelCanvas& canvas) {
   const SpanBox box{{b.origin_[0][lane], b.origin_[1][lane]}, {b.column_[0][lane], b.column_[1][lane]},
                     {b.row_[0][lane], b.row_[1][lane]}};
