@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <unordered_set>
 
@@ -42,17 +41,21 @@ Mat3 cofactors(const glm::dmat3& m) {
   return scale > 0 ? Mat3(c * (sign / scale)) : Mat3(1);
 }
 
-/// Parts met before, equal in every bit: shape, material and place.
+/// Parts met before: of the same shape and material, and all but in one place.
 class Twins {
  public:
-  bool met(const Part& part) {
+  /// `centre` and `sides`: of the shape's box, in the scene of unit size.
+  bool met(const Part& part, const Vec3& centre, const Vec3 (&sides)[3]) {
     Key key{part.shape, part.material};
-    static_assert(sizeof(Frame) == 12 * sizeof(std::uint32_t));
-    std::memcpy(key.data() + 2, &part.model_from_shape, sizeof(Frame));
+    std::size_t at = 2;
+    for (const Vec3& v : {centre, sides[0], sides[1], sides[2]}) {
+      for (int i = 0; i < 3; ++i) key[at++] = cell(v[i]);
+    }
     return !seen_.insert(key).second;
   }
 
  private:
+  static constexpr float kCell = Tracer::kTie;  // surfaces this close coincide anyway
   using Key = std::array<std::uint32_t, 14>;
   struct Hash {
     std::size_t operator()(const Key& key) const {
@@ -61,6 +64,11 @@ class Twins {
       return hash;
     }
   };
+  static std::uint32_t cell(float x) {
+    const float cells = std::clamp(x / kCell, -1e9f, 1e9f);
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(cells + (x < 0 ? -0.5f : 0.5f)));
+  }
+
   std::unordered_set<Key, Hash> seen_;
 };
 
@@ -84,8 +92,8 @@ class SetBuilder {
       const Material& m = surfaces.material(part.material);
       const bool nowhere = alpha == AlphaMode::mask && m.opacity < m.cutout;
       if (shape.mesh.triangles.empty() || nowhere) continue;
-      // Thousands of parts in one place look like one, but every ray would try them all.
-      if (alpha != AlphaMode::blend && twins.met(part)) continue;
+      // Thousands of parts in one place, or a hair's breadth apart, look like one, but every ray would try them all.
+      if (alpha != AlphaMode::blend && met(twins, part, shape.box)) continue;
       (alpha == AlphaMode::blend ? translucent : opaque).push_back(place(part, shape));
     }
     for (Mesh& ghost : ghosts_) {
@@ -114,9 +122,9 @@ class SetBuilder {
     }
     for (const Mesh& ghost : ghosts_) all.add(bounds(ghost));
     if (all.empty()) return;
-    centre_ = 0.5 * (glm::dvec3(all.min) + glm::dvec3(all.max));
+    set_.centre = 0.5 * (glm::dvec3(all.min) + glm::dvec3(all.max));
     const double radius = 0.5 * glm::length(glm::dvec3(all.max) - glm::dvec3(all.min));
-    scale_ = radius > 0 ? 1 / radius : 1;
+    set_.scale = radius > 0 ? 1 / radius : 1;
   }
 
   static std::vector<Vec3> box_corners(const Bounds& b) {
@@ -128,7 +136,14 @@ class SetBuilder {
     return out;
   }
 
-  Vec3 unit_point(const Vec3& p) const { return Vec3((glm::dvec3(p) - centre_) * scale_); }
+  Vec3 unit_point(const Vec3& p) const { return set_.unit_point(p); }
+
+  bool met(Twins& twins, const Part& part, const Bounds& box) const {
+    Vec3 sides[3];
+    for (int i = 0; i < 3; ++i)
+      sides[i] = Vec3(glm::dvec3(part.model_from_shape.basis[i]) * (set_.scale * static_cast<double>(box.size()[i])));
+    return twins.met(part, unit_point(part.model_from_shape.point(box.centre())), sides);
+  }
 
   Placed place(const Part& part, const Shape& shape) {
     Placed placed;
@@ -136,7 +151,7 @@ class SetBuilder {
     placed.cutout = part.material < cutout_of_.size() ? cutout_of_[part.material] : nullptr;
     const bool textured = set_.texture(part.material);
     const Mat3 basis = with_depth(part.model_from_shape.basis, shape.box);
-    const glm::dmat3 unit_basis = glm::dmat3(basis) * scale_;
+    const glm::dmat3 unit_basis = glm::dmat3(basis) * set_.scale;
     for (const Vec3& corner : box_corners(shape.box)) {
       set_.corners.push_back(unit_point(part.model_from_shape.point(corner)));
     }
@@ -150,7 +165,7 @@ class SetBuilder {
     TriangleSet*& known = shapes_[2 * part.shape + (textured ? 1 : 0)];
     if (!known) known = keep(textured ? with_uvs(shape.mesh) : Mesh(shape.mesh));
     placed.shape = known;
-    const glm::dvec3 origin = (glm::dvec3(part.model_from_shape.origin) - centre_) * scale_;
+    const glm::dvec3 origin = (glm::dvec3(part.model_from_shape.origin) - set_.centre) * set_.scale;
     const glm::dmat3 inverse = glm::inverse(unit_basis);
     placed.world_from_shape = {Mat3(unit_basis), Vec3(origin)};
     placed.shape_from_world = {Mat3(inverse), Vec3(-(inverse * origin))};
@@ -196,8 +211,6 @@ class SetBuilder {
   std::vector<Mesh> ghosts_;
   std::vector<TriangleSet*> shapes_;  // per shape of parts_, without and with texture coordinates; once used
   std::vector<const Cutout*> cutout_of_;  // per material
-  glm::dvec3 centre_{0};
-  double scale_ = 1;
   Set set_;
 };
 

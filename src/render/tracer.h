@@ -43,6 +43,11 @@ class TriangleSet {
   /// Bits of the triangles that are hit; t, u and v go to arrays of four.
   static unsigned intersect_block(const Block& block, const Ray& ray, float far, float* t, float* u, float* v);
 
+  bool intersect_leaf(std::uint32_t leaf, const Ray& ray, Hit& hit, const Cutout* cutout) const;
+  bool leaf_blocks(std::uint32_t leaf, const Ray& ray, float far, const Cutout* cutout) const;
+
+  static constexpr std::size_t kFewBlocks = 2;  // so many are tried one after another
+
   const Mesh* mesh_;
   Bvh bvh_;
   std::vector<Block> blocks_;
@@ -73,6 +78,7 @@ class Tracer {
 
   const Placed& part(std::uint32_t i) const { return parts_[i]; }
   bool empty() const { return parts_.empty(); }
+  std::size_t size() const { return parts_.size(); }
   const Bounds& box() const { return bvh_.box(); }
 
   /// Unit normals at a hit: of the triangle, and interpolated. Both on the side that the ray comes from.
@@ -82,7 +88,21 @@ class Tracer {
   Vec2 uv(const Hit& hit, float& share_per_length) const;
 
  private:
+  /// What a ray needs of a part before it hits, in one line of the cache; in the order of the tree's leaves.
+  struct alignas(64) Entry {
+    Frame shape_from_world;
+    const TriangleSet* shape = nullptr;
+    std::uint32_t part = 0;
+    bool cut_out = false;
+
+    Ray local(const Ray& ray) const {
+      return {shape_from_world.point(ray.origin), shape_from_world.vector(ray.direction), ray.near};
+    }
+  };
+  const Cutout* cutout(const Entry& entry) const { return entry.cut_out ? parts_[entry.part].cutout : nullptr; }
+
   std::vector<Placed> parts_;
+  std::vector<Entry> entries_;
   Bvh bvh_;
 };
 
