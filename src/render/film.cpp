@@ -100,6 +100,11 @@ void Film::smooth_four(std::size_t at, std::ptrdiff_t step, float* const (&out)[
   const Float4 n[3] = {load(kNormal, 0), load(kNormal + 1, 0), load(kNormal + 2, 0)};
   const Float4 p[3] = {load(kPosition, 0), load(kPosition + 1, 0), load(kPosition + 2, 0)};
   const Float4 old[3] = {load(kLight, 0), load(kLight + 1, 0), load(kLight + 2, 0)};
+  if (!any(at_least(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], Float4(1e-6f)))) {
+    alignas(16) float same[4];
+    for (int c = 0; c < 3; ++c) old[c].store(same), std::copy_n(same, 4, out[c]);
+    return;
+  }
   const float change_scale = step > 2 ? kChangeScale : 0;
   Float4 sum[3] = {Float4(0), Float4(0), Float4(0)}, weights(0);
   for (int j = -2; j <= 2; ++j) {

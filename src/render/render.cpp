@@ -120,7 +120,9 @@ class PixelTracer {
   std::vector<std::uint32_t> group_of_;  // per sample
 };
 
-Picture picture_of(const View& view, int samples, Executor& executor) {
+Picture picture_of(View view, int samples, Executor& executor) {
+  const GroundShade ground_shade(view.stage, view.set.opaque);
+  view.ground_shade = &ground_shade;
   Coverage coverage(view.camera, view.width, view.height);
   for (const Tracer* tracer : {&view.set.opaque, &view.set.translucent, &view.set.ghosts}) coverage.add(*tracer);
   Film film(view.width, view.height, !view.set.ghosts.empty());
@@ -169,7 +171,7 @@ Picture render(const Model& model, const MeshTable& meshes, const Surfaces& surf
   const Camera camera =
       settings.place ? placed(*settings.place, set, lens)
                      : frame_points(set.corners, settings.azimuth_deg, settings.elevation_deg, lens, kMargin);
-  const View view{set, stage_for(settings, set, camera), camera, settings.width, settings.height};
+  const View view{set, stage_for(settings, set, camera), camera, settings.width, settings.height, nullptr};
   return picture_of(view, settings.samples, executor);
 }
 
@@ -182,7 +184,7 @@ void render_turntable(const Model& model, const MeshTable& meshes, const Surface
       settings.place ? placed(*settings.place, set, lens)
                      : frame_turning(set.corners, settings.azimuth_deg, settings.elevation_deg, lens, kMargin);
   const Vec3 axis = settings.place ? looked_at(*settings.place, set) : Vec3(0);
-  View view{set, stage_for(settings, set, first), first, settings.width, settings.height};
+  View view{set, stage_for(settings, set, first), first, settings.width, settings.height, nullptr};
   const std::uint32_t begin = turntable.only.value_or(0), end = turntable.only ? begin + 1 : turntable.frames;
   for (std::uint32_t frame = begin; frame < end; ++frame) {
     view.camera = turned(first, axis, 360.0f * static_cast<float>(frame) / static_cast<float>(turntable.frames));

@@ -164,14 +164,18 @@ Light gather(const View& view, const Sample& sample, std::uint32_t number) {
   const Tracer& opaque = view.set.opaque;
   const LightTables& tables = *view.stage.tables;
   const Vec3 start = sample.position + kOffset * sample.flat;
-  const Vec3 to_key = in_cone(view.stage.to_key, kKeySpread, tables.on_light(number));
-  const float facing = glm::dot(sample.normal, to_key);
-  if (facing > 0 && glm::dot(sample.flat, to_key) > 0 && !opaque.blocks({start, to_key, 0}, 1e30f)) {
+  const bool ground = sample.seen == Seen::ground;
+  if (ground && view.ground_shade && !view.ground_shade->may_hide(sample.position)) {
     light.key = 1;
-    light.diffuse += facing * key_radiance();
+  } else {
+    const Vec3 to_key = in_cone(view.stage.to_key, kKeySpread, tables.on_light(number));
+    const float facing = glm::dot(sample.normal, to_key);
+    if (facing > 0 && glm::dot(sample.flat, to_key) > 0 && !opaque.blocks({start, to_key, 0}, 1e30f)) {
+      light.key = 1;
+      light.diffuse += facing * key_radiance();
+    }
   }
   Vec3 out = tables.over_hemisphere(sample.normal, number);
-  const bool ground = sample.seen == Seen::ground;
   if (glm::dot(out, sample.flat) < 0) out -= 2 * glm::dot(out, sample.flat) * sample.flat;
   const bool blocked = opaque.blocks({start, out, 0}, ground ? kGroundReach : kSkyReach);
   light.open = blocked ? 0 : 1;

@@ -16,7 +16,7 @@ struct Caster {
     nothing,  // no triangles
     sphere,   // radius 1/2
     round,   // cylinders and cones of at least kRoundFromSides sides (solid.h): radius 1/2 at y = -1/2, top / 2 at +1/2
-    box,     // |x|, |y|, |z| <= 1/2
+    box,   // |x|, |y|, |z| <= 1/2
     convex,  // closed and convex, or flat with a convex border
     triangles,  // anything else
   };

@@ -181,6 +181,21 @@ HWY_INLINE I8 to_int(const F8& bits) {
   return r;
 }
 
+HWY_INLINE U8 bits_of(const F8& a) {
+  U8 r;
+  for (std::size_t i = 0; i < U8::kBlocks; ++i) r.block[i] = hn::BitCast(WordTag(), a.block[i]);
+  return r;
+}
+
+/// Some lane is not all ones.
+HWY_INLINE bool any_but(const U8& a) {
+  alignas(32) std::uint32_t lane[8];
+  a.store(lane);
+  std::uint32_t all = ~0u;
+  for (const std::uint32_t v : lane) all &= v;
+  return all != ~0u;
+}
+
 /// 0, 1, .. 7 plus `first`.
 HWY_INLINE F8 lanes_from(float first) {
   alignas(32) static constexpr float kLane[8] = {0, 1, 2, 3, 4, 5, 6, 7};

@@ -1,4 +1,4 @@
-// Drawing FoldMeshes: four corners and eight faces at a time to the edges that matter; where those cross the rows of the
+// Drawing FoldMeshes: four corners and eight faces at a time to the edges that matter; where those cross rows of the
 // image the number of faces over it changes, and running sums of eight rows at a time tell what is covered. Every edge
 // is worked out once, for both of its faces, so no pixel slips between them. Included once per target.
 
@@ -84,48 +84,64 @@ HWY_INLINE void set_turns(const FoldMesh& mesh, FoldScratch& s) {
   }
 }
 
-/// Collects the edges that matter and cross a row.
+/// Collects the edges that matter and cross a row. No jumps: there would be no telling where they go.
 HWY_INLINE void keep_steps(const FoldMesh& mesh, FoldScratch& s) {
-  const std::int32_t* turn = s.turn.data();
-  const std::int32_t* row = s.row.data();
+  const std::int32_t* const turn = s.turn.data();
+  const std::int32_t* const row = s.row.data();
+  const FoldMesh::Fold* const folds = mesh.folds.data();
+  std::uint32_t* const folded = s.folded.data();
+  std::size_t count = 0;
+  for (std::size_t i = 0, n = mesh.folds.size(); i < n; ++i) {
+    folded[count] = static_cast<std::uint32_t>(i);
+    count += turn[folds[i].left] != turn[folds[i].right] ? 1 : 0;
+  }
   FoldScratch::Step* to = s.steps.data();
   // Downwards along an edge a face that looks at the viewer (turn -1) lies to the left: one face less beyond it.
-  for (const FoldMesh::Fold& fold : mesh.folds) {
-    const std::int32_t from = row[fold.from], end = row[fold.to], step = 2 * (turn[fold.left] - turn[fold.right]);
-    const bool down = from < end;
-    *to = {down ? fold.from : fold.to, down ? fold.to : fold.from, down ? step : -step};
-    to += static_cast<int>(step != 0) & static_cast<int>(from != end);
+  const auto keep = [&](std::uint32_t from, std::uint32_t end, std::int32_t step) {
+    const bool down = row[from] < row[end];
+    *to = {down ? from : end, down ? end : from, down ? step : -step};
+    to += row[from] != row[end] ? 1 : 0;
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const FoldMesh::Fold& fold = folds[folded[i]];
+    keep(fold.from, fold.to, 2 * (turn[fold.left] - turn[fold.right]));
   }
-  for (const FoldMesh::Border& border : mesh.borders) {
-    const std::int32_t from = row[border.from], end = row[border.to], step = 2 * turn[border.face] + 1;
-    const bool down = from < end;
-    *to = {down ? border.from : border.to, down ? border.to : border.from, down ? step : -step};
-    to += static_cast<int>(from != end);
-  }
+  for (const FoldMesh::Border& border : mesh.borders) keep(border.from, border.to, 2 * turn[border.face] + 1);
   s.kept = static_cast<std::size_t>(to - s.steps.data());
 }
 
-/// A band of strips: rows [first, end) of the reach, `columns` of them wide and one more for what begins beyond.
+/// A band of strips: rows [first, end), relative to the view's origin; `columns` of them wide, and one for what begins
+/// beyond. Absolute: `strip` and `word`, of the first row and column.
 struct FoldBand {
-  std::int32_t first, end, strip, columns, words;  // strip: of the row `first`, absolute; words: of `touched` per strip
+  std::int32_t first, end, strip, word, columns, words;  // words: of FoldScratch::touched per strip
 };
 
-HWY_INLINE void mark_step(const FoldScratch::Step& edge, const FoldBand& band, const FoldReach& reach, FoldScratch& s) {
-  const std::int32_t first = std::max(s.row[edge.upper], band.first), end = std::min(s.row[edge.lower], band.end);
-  if (first >= end) return;
-  const float ax = s.x[edge.upper], ay = s.y[edge.upper];
-  const float slope = (s.x[edge.lower] - ax) / (s.y[edge.lower] - ay);
-  const float left = static_cast<float>(reach.low[0]), right = static_cast<float>(reach.high[0]);
-  for (std::int32_t row = first; row < end; ++row) {
-    const float at = ax + slope * (static_cast<float>(row) + 0.5f - ay) - 0.5f;
-    const float inside = std::min(std::max(at, left), right) - left;
-    const auto whole = static_cast<std::int32_t>(inside);
-    const std::int32_t column = whole + static_cast<std::int32_t>(static_cast<float>(whole) < inside);
-    const std::int32_t absolute = row + s.view.origin[1], strip = (absolute >> 3) - band.strip;
-    s.begins[static_cast<std::size_t>((strip * (band.columns + 1) + column) * 8 + (absolute & 7))] += edge.step;
-    s.touched[static_cast<std::size_t>(
-        strip * band.words + ((column + reach.low[0] + s.view.origin[0]) >> 5) -
-        ((reach.low[0] + s.view.origin[0]) >> 5))] = 1;
+// In steps of 2^-32 pixels from row to row: whole numbers round up cheaply.
+HWY_INLINE void mark_steps(const FoldBand& band, const FoldReach& reach, FoldScratch& s) {
+  constexpr double kOne = 4294967296.0;
+  const std::int32_t origin_row = s.view.origin[1], indent = ((reach.low[0] + s.view.origin[0]) & 31);
+  const float left = static_cast<float>(reach.low[0]) + 0.5f;
+  const std::int64_t columns = band.columns, stride = (columns + 1) * 8;
+  const float* const x = s.x.data();
+  const float* const y = s.y.data();
+  const std::int32_t* const rows = s.row.data();
+  std::int32_t* const begins = s.begins.data();
+  std::uint8_t* const touched = s.touched.data();
+  for (const FoldScratch::Step *edge = s.steps.data(), *last = edge + s.kept; edge != last; ++edge) {
+    const std::int32_t first = std::max(rows[edge->upper], band.first), end = std::min(rows[edge->lower], band.end);
+    if (first >= end) continue;
+    const float ax = x[edge->upper], ay = y[edge->upper];
+    const float slope = (x[edge->lower] - ax) / (y[edge->lower] - ay);
+    const float from = ax - left + slope * (static_cast<float>(first) + 0.5f - ay);
+    std::int64_t at = static_cast<std::int64_t>(double{from} * kOne) + 0xffffffff;
+    // An edge in one row may be all but level; one in two rows is no wider than it may be long.
+    const std::int64_t step = end - first > 1 ? static_cast<std::int64_t>(double{slope} * kOne) : 0;
+    for (std::int32_t row = first + origin_row; row < end + origin_row; ++row, at += step) {
+      const std::int64_t column = std::min(std::max(at >> 32, std::int64_t{0}), columns);
+      const std::int32_t strip = (row >> 3) - band.strip;
+      begins[strip * stride + column * 8 + (row & 7)] += edge->step;
+      touched[strip * band.words + ((static_cast<std::int32_t>(column) + indent) >> 5)] = 1;
+    }
   }
 }
 
@@ -177,8 +193,9 @@ HWY_INLINE void fill_strip(std::int32_t* begins, std::uint8_t* touched, std::int
 HWY_INLINE void fill_folds(const FoldReach& reach, FoldScratch& s, PixelCanvas& canvas) {
   const std::int32_t first_column = reach.low[0] + s.view.origin[0], end_column = reach.high[0] + s.view.origin[0];
   FoldBand band;
+  band.word = first_column >> 5;
   band.columns = end_column - first_column;
-  band.words = (end_column >> 5) - (first_column >> 5) + 2;
+  band.words = (end_column >> 5) - band.word + 2;
   const std::size_t per_strip = static_cast<std::size_t>(band.columns + 1) * 8;
   const std::int32_t strips = static_cast<std::int32_t>(std::max<std::size_t>(1, kBandWords / per_strip));
   if (s.begins.size() < per_strip * static_cast<std::size_t>(strips)) {
@@ -189,14 +206,14 @@ HWY_INLINE void fill_folds(const FoldReach& reach, FoldScratch& s, PixelCanvas& 
   for (band.first = reach.low[1]; band.first < reach.high[1]; band.first = band.end) {
     band.strip = (band.first + s.view.origin[1]) >> 3;
     band.end = std::min((band.strip + strips) * 8 - s.view.origin[1], reach.high[1]);
-    for (std::size_t i = 0; i < s.kept; ++i) mark_step(s.steps[i], band, reach, s);
+    mark_steps(band, reach, s);
     const std::int32_t last = (band.end - 1 + s.view.origin[1]) >> 3;
     for (std::int32_t strip = band.strip; strip <= last; ++strip) {
       const auto at = static_cast<std::size_t>(strip - band.strip);
       fill_strip(s.begins.data() + at * per_strip, s.touched.data() + at * static_cast<std::size_t>(band.words),
                  first_column, end_column,
-                 canvas.words.data() + (static_cast<std::size_t>(strip) * canvas.across +
-                                        static_cast<std::size_t>(first_column >> 5)) * 8);
+                 canvas.words.data() +
+                     (static_cast<std::size_t>(strip) * canvas.across + static_cast<std::size_t>(band.word)) * 8);
     }
   }
 }

@@ -1,7 +1,7 @@
 #pragma once
-// FoldMesh: a mesh by its edges. Seen from anywhere, the number of faces that lie over a point of the image changes only
-// at edges where the mesh folds over (one face turns towards the eye, the other away) or ends; most edges do neither, so
-// a silhouette needs only the few that do.
+// FoldMesh: a mesh by its edges. Seen from anywhere, the number of faces over a point of the image changes only at
+// edges where the mesh folds over (one face turns towards the eye, the other away) or ends. Most edges do neither, so
+// that a silhouette needs but a few.
 
 #include <array>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Outlines of eight spheres, cylinders and cones, or boxes at once: the same pieces as OutlineMaker's, one part per lane.
+// Outlines of eight spheres, cylinders and cones, or boxes at once: the same pieces as OutlineMaker's, a part per lane.
 // Middles are projected in double precision; what is relative to them needs no more than floats, since parts that are
 // large in the image, or come near the nearest plane, are left to OutlineMaker. Included once per target.
 
@@ -34,15 +34,6 @@ HWY_INLINE H8 operator+(const H8& a, const H8& b) { return {a.x + b.x, a.y + b.y
 HWY_INLINE H8 operator-(const H8& a, const H8& b) { return {a.x - b.x, a.y - b.y, a.w - b.w}; }
 HWY_INLINE H8 operator*(const F8& k, const H8& a) { return {k * a.x, k * a.y, k * a.w}; }
 
-/// Some lane is not all ones.
-HWY_INLINE bool any_but(const U8& a) {
-  alignas(32) std::uint32_t lane[8];
-  a.store(lane);
-  std::uint32_t all = ~0u;
-  for (const std::uint32_t v : lane) all &= v;
-  return all != ~0u;
-}
-
 class OutlineBatch {
  public:
   static constexpr int kMostEdges = 12;
@@ -56,11 +47,11 @@ class OutlineBatch {
   /// Rectangles; to be called last.
   HWY_INLINE void finish(const Projection& projection);
 
-  // By lane. Rows of edges_ and ellipses_ are the first members of OutlineEdge and OutlineEllipse, relative to origin_.
+  // By lane. Rows of edges_ and ellipses_ are the first members of OutlineEdge and OutlineEllipse; origin_ is 0.
   alignas(32) float edges_[kMostEdges][4][8], ellipses_[2][5][8];
   alignas(32) std::uint32_t kept_[8];   // bit e: edge e is there
-  // Boxes of which three faces are seen: their outline is a hexagon, whose sides are lines at column slope * y + left or
-  // + right, the other of which lies far off.
+  // hexagon_: three faces of a box are seen. Its sides are lines at column slope * y + left or + right; the one that is
+  // not meant lies far off.
   alignas(32) float lines_[6][3][8];
   alignas(32) std::uint32_t hexagon_[8];
   alignas(32) std::uint32_t ready_[8];  // all bits: the lane is; none: OutlineMaker must
@@ -82,12 +73,6 @@ class OutlineBatch {
   F8 top_, shift_[2], low_[2], high_[2], ok_;
   U8 kept_bits_;
 };
-
-HWY_INLINE U8 bits_of(const F8& a) {
-  U8 r;
-  for (std::size_t i = 0; i < U8::kBlocks; ++i) r.block[i] = hn::BitCast(WordTag(), a.block[i]);
-  return r;
-}
 
 // A part's middle, and how pixels change with its points' places: the projection's derivative there.
 HWY_INLINE void OutlineBatch::load_middles(const Projection& projection, int half) {

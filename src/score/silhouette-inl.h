@@ -126,14 +126,15 @@ HWY_INLINE void draw_hexagon(const OutlineBatch& b, int lane, const SpanBox& box
   });
 }
 
-/// One part of a batch. Testing which pieces a tile needs would cost more than what it saves: parts are small.
+/// One part of a batch. Balls and cones work out all pieces in all tiles, so that there are no jumps to guess wrong.
 HWY_INLINE void draw_lane(const OutlineBatch& b, BatchKind kind, int lane, PixelCanvas& canvas) {
   const SpanBox box{{b.origin_[0][lane], b.origin_[1][lane]}, {b.column_[0][lane], b.column_[1][lane]},
                     {b.row_[0][lane], b.row_[1][lane]}};
   if (box.column[0] >= box.column[1] || box.row[0] >= box.row[1]) return;
   switch (kind) {
     case BatchKind::sphere:
-      draw_spans(box, canvas, [&](float, float, const F8& y, RowSpans& spans) { spans.add(ellipse_of(b, 0, lane), y); });
+      draw_spans(box, canvas,
+                 [&](float, float, const F8& y, RowSpans& spans) { spans.add(ellipse_of(b, 0, lane), y); });
       break;
     case BatchKind::round:
       draw_spans(box, canvas, [&](float, float, const F8& y, RowSpans& spans) {

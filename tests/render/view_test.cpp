@@ -11,6 +11,7 @@
 #include "render/bone_model.h"
 #include "render/camera.h"
 #include "render/coverage.h"
+#include "render/ground_shade.h"
 #include "render/set.h"
 #include "render/test_scenes.h"
 
@@ -211,6 +212,24 @@ TEST(Coverage, NoRayOutsideMeetsAPart) {
   }
   EXPECT_GT(outside, 10'000u);
   EXPECT_GT(inside, 10'000u);
+}
+
+TEST(GroundShade, HidesNothingOutside) {
+  const Set set = build_set(small_ship(), primitive_table(), test_materials(), {}, true);
+  std::size_t hidden = 0, open = 0;
+  for (const float azimuth : {0.0f, 100.0f, 250.0f}) {
+    const Stage stage = make_stage(set.lowest, frame_points(set.corners, azimuth, 20, 4, 3, 0.1f));
+    const GroundShade shade(stage, set.opaque);
+    for (std::uint32_t i = 0; i < 200 * 200; ++i) {
+      const Vec3 p(static_cast<float>(i % 200) * 0.06f - 6, set.lowest, static_cast<float>(i / 200) * 0.06f - 6);
+      const Vec3 to_key = in_cone(stage.to_key, kKeySpread, stage.tables->on_light(i));
+      const bool blocked = set.opaque.blocks({p + Vec3(0, 4e-4f, 0), to_key, 0}, 1e30f);
+      hidden += blocked, open += !shade.may_hide(p);
+      ASSERT_TRUE(!blocked || shade.may_hide(p)) << p.x << " " << p.z;
+    }
+  }
+  EXPECT_GT(hidden, 500u);
+  EXPECT_GT(open, 60'000u);
 }
 
 TEST(BoneModel, ReachesFromJointToJoint) {

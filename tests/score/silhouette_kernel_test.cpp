@@ -252,8 +252,8 @@ TEST(SilhouetteKernel, HugePartsAgreeWithTheReference) {
   EXPECT_LE(sum.different, 2u) << "of " << sum.pixels;
 }
 
-/// Thin parts, balls as discs, cones as needles or wider above, and mirrored ones. (Round parts without any depth have no
-/// inverse, which the reference needs.)
+/// Thin parts, balls as discs, cones as needles or wider above, and mirrored ones. (Round parts without any depth have
+/// no inverse, which the reference needs.)
 TEST(SilhouetteKernel, ThinAndMirroredPartsAgreeWithTheReference) {
   const Shapes shapes;
   Differences sum;
