@@ -12,10 +12,21 @@
 namespace espalier {
 namespace {
 
+std::string legend(const std::vector<LegendRow>& rows) {
+  if (rows.empty()) return "";
+  std::string html = "\n<ul class=\"legend\">\n";
+  for (const LegendRow& row : rows) {
+    html += "<li>";
+    for (const Colour& colour : row.swatches) html += fmt::format("<i style=\"background:{}\"></i>", hex_of(colour));
+    html += escape_html(row.text) + "</li>\n";
+  }
+  return html + "</ul>\n";
+}
+
 std::string figure(const ReportPicture& picture) {
-  return fmt::format("<figure>\n<img src=\"{}\" alt=\"{}\">\n<figcaption><b>{}</b> {}</figcaption>\n</figure>\n",
-                     png_url(picture.png), escape_html(picture.title), escape_html(picture.title),
-                     escape_html(picture.caption));
+  return fmt::format("<figure{}>\n<img src=\"{}\" alt=\"{}\">\n<figcaption><b>{}</b> {}{}</figcaption>\n</figure>\n",
+                     picture.broad ? " class=\"broad\"" : "", png_url(picture.png), escape_html(picture.title),
+                     escape_html(picture.title), escape_html(picture.caption), legend(picture.legend));
 }
 
 std::string percent(double share) { return fmt::format("{:.1f}&thinsp;%", 100 * share); }
@@ -86,6 +97,7 @@ std::string genes_in_words(const GeneratorGraph& graph, const Derivation& deriva
 
 std::string pictures_html(const ReportInput& input) {
   std::string html = figure(input.best);
+  for (const ReportPicture& picture : input.outcomes) html += figure(picture);
   for (const ReportPicture& picture : input.targets) html += figure(picture);
   return html;
 }

@@ -43,6 +43,19 @@ ReportPicture silhouette_picture(const SilhouetteTarget& target) {
 
 }  // namespace
 
+std::vector<ReportPicture> outcome_pictures(const Setup& setup, const Model& model, const OutcomeLook& look,
+                                            Executor& executor) {
+  std::vector<ReportPicture> pictures;
+  for (const std::string& name : outcome_names(setup)) {
+    const OutcomePicture drawn = draw_outcome(setup, model, name, look, executor);
+    pictures.push_back({"Overlay", drawn.title,
+                        encode_png(drawn.picture.width, drawn.picture.height, drawn.picture.rgb, "Title",
+                                   "espalier: overlay"),
+                        drawn.legend, name == kVolumeOverlayName});
+  }
+  return pictures;
+}
+
 std::vector<ReportPicture> target_pictures(const Setup& setup, const RenderSettings& look, Executor& executor) {
   std::vector<ReportPicture> pictures;
   for (const SilhouetteTarget* target : setup.silhouettes) pictures.push_back(silhouette_picture(*target));

@@ -8,6 +8,7 @@
 #include "base/version.h"
 #include "io/file.h"
 #include "io/image.h"
+#include "run/outcome_pictures.h"
 #include "run/scene_toml.h"
 
 namespace espalier {
@@ -67,6 +68,7 @@ Provenance ResultWriter::provenance(std::size_t index, const std::string& settin
 std::vector<std::string> ResultWriter::names() const {
   std::vector<std::string> names = {"best.derivation.json", "result.json", "convergence.csv", kRunMarker,
                                     "inputs",               "best.glb",    "best.obj",        "best.png"};
+  for (const std::string& name : outcome_names(setup_)) names.push_back(name);
   for (const char* ending : {".derivation.json", ".glb", ".png"}) {
     for (std::size_t i = 1; i < size(); ++i) names.push_back(alternative_name(i, ending));
   }
@@ -83,7 +85,7 @@ void ResultWriter::write(const std::string& name, const std::string& path) {
   if (name == "alternatives.png") return write_sheet(path);
   if (name == "report.html") return write_report(path);
   if (name.starts_with("best.")) return write_individual(0, path, provenance(0, "."));
-  CHECK(name.starts_with("alternatives/"));
+  if (!name.starts_with("alternatives/")) return write_outcome(name, path);
   std::error_code ignored;  // a folder that cannot be made shows when the file is written
   fs::create_directories(fs::path(path).parent_path(), ignored);
   const std::size_t index = std::stoul(name.substr(name.find('/') + 1));
@@ -97,6 +99,12 @@ void ResultWriter::write_individual(std::size_t index, const std::string& path, 
     return write_png(path, picture.width, picture.height, picture.rgb, provenance);
   }
   files_.write(individual(index).derivation, path, provenance);
+}
+
+void ResultWriter::write_outcome(const std::string& name, const std::string& path) {
+  const Picture picture =
+      with_words(draw_outcome(setup_, files_.model_of(result_.best.derivation), name, {}, executor_));
+  write_png(path, picture.width, picture.height, picture.rgb, provenance(0, "."));
 }
 
 const Picture& ResultWriter::best_picture() {

@@ -42,6 +42,7 @@ class ResultWriter {
   const Picture& small_picture(std::size_t index);
   void write_small_picture(std::size_t index, const std::string& path, const Provenance& provenance);
   void write_sheet(const std::string& path);
+  void write_outcome(const std::string& name, const std::string& path);
   void write_report(const std::string& path);
   void write_result(const std::string& path) const;
   void write_convergence(const std::string& path) const;

@@ -82,7 +82,7 @@ bool run_scene(const Scene& scene, const RunOptions& options, MeshSource& source
   RunFolder folder(options.out, kRunMarker);
   observer.started(start_of(*setup, options, folder, *executor));
   for (const std::string& warning : setup->warnings) observer.warning(warning);
-  for (const std::string& warning : warn_of_reach(*setup)) observer.warning(warning);
+  for (const std::string& warning : warn_of_reach(*setup, find_reach(*setup))) observer.warning(warning);
 
   SearchControl control;
   control.budget = scene.budget;
