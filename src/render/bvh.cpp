@@ -75,8 +75,8 @@ class BvhBuilder {
       const bool used = k < children.size();
       const Bounds box = used ? children[k].box : Bounds{};
       for (int axis = 0; axis < 3; ++axis) {
-        out_.nodes_[index].low[axis][k] = box.min[axis];
-        out_.nodes_[index].high[axis][k] = box.max[axis];
+        out_.nodes_[index].side[2 * axis][k] = box.min[axis];
+        out_.nodes_[index].side[2 * axis + 1][k] = box.max[axis];
       }
       const std::uint32_t child = !used                             ? Bvh::kNone
                                   : children[k].size() <= leaf_size_ ? make_leaf(children[k])

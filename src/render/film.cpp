@@ -6,7 +6,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/check.h"
 #include "model/srgb.h"
+#include "render/float4.h"
 #include "render/ghost.h"
 
 namespace espalier {
@@ -42,61 +44,92 @@ bool is_plain(std::span<const Sample> samples) {
 
 Pixel develop_plain(std::span<const Sample> samples) {
   Pixel p;
-  p.clear = 0;
+  p.clear = p.alpha = 0;
+  p.seen = samples[0].seen;
   for (const Sample& s : samples) {
     p.albedo += s.albedo, p.light += s.light, p.extra += s.extra;
     p.normal += s.normal, p.position += s.position;
     p.veil += s.veil, p.clear += s.clear, p.ghost_normal += s.ghost_normal;
+    p.alpha += s.alpha;
   }
   const float share = 1 / static_cast<float>(samples.size());
   for (Vec3* v : {&p.albedo, &p.light, &p.extra, &p.normal, &p.position, &p.veil, &p.ghost_normal}) *v *= share;
-  p.clear *= share;
+  p.clear *= share, p.alpha *= share;
   return p;
 }
 
-Pixel develop_mixed(std::span<const Sample> samples) {
+Pixel develop_mixed(const View& view, std::span<const Sample> samples) {
   Pixel p;
-  for (const Sample& s : samples) p.extra += colour_of(s), p.ghost_normal += s.ghost_normal;
+  p.alpha = 0;
+  for (const Sample& s : samples)
+    p.extra += colour_of(s), p.alpha += alpha_of(view, s), p.ghost_normal += s.ghost_normal;
   const float share = 1 / static_cast<float>(samples.size());
-  p.extra *= share, p.ghost_normal *= share;
-  p.clear = -1;  // developed already
+  p.extra *= share, p.alpha *= share, p.ghost_normal *= share;
+  p.clear = -1;
   return p;
 }
 
-Vec3 Film::smoothed(std::uint32_t x, std::uint32_t y, int step) const {
+Film::Film(std::uint32_t width, std::uint32_t height)
+    : width_(width),
+      height_(height),
+      stride_((width + 2 * kBorder + 3) / 4 * 4),
+      pixels_(std::size_t{width} * height) {
+  for (std::vector<float>& plane : planes_) plane.resize(stride_ * (height + 2 * kBorder) + 8);  // vectors may reach beyond the last
+}
+
+void Film::put(std::uint32_t x, std::uint32_t y, const Pixel& pixel) {
+  pixels_[x + std::size_t{width_} * y] = pixel;
+  const std::size_t p = place(x, y);
+  for (int c = 0; c < 3; ++c) {
+    planes_[kNormal + c][p] = pixel.normal[c];
+    planes_[kPosition + c][p] = pixel.position[c];
+    planes_[kLight + c][p] = pixel.light[c];
+  }
+}
+
+void Film::smooth_four(std::size_t at, std::ptrdiff_t step, float* const (&out)[3]) const {
   static constexpr float kKernel[3] = {0.375f, 0.25f, 0.0625f};
-  const Pixel& centre = at(x, y);
-  Vec3 sum(0);
-  float weights = 0;
+  const auto load = [&](int plane, std::ptrdiff_t offset) {
+    return Float4::load_any(planes_[plane].data() + static_cast<std::ptrdiff_t>(at) + offset);
+  };
+  const Float4 n[3] = {load(kNormal, 0), load(kNormal + 1, 0), load(kNormal + 2, 0)};
+  const Float4 p[3] = {load(kPosition, 0), load(kPosition + 1, 0), load(kPosition + 2, 0)};
+  const Float4 old[3] = {load(kLight, 0), load(kLight + 1, 0), load(kLight + 2, 0)};
+  Float4 sum[3] = {Float4(0), Float4(0), Float4(0)}, weights(0);
   for (int j = -2; j <= 2; ++j) {
-    const int ty = static_cast<int>(y) + j * step;
-    if (ty < 0 || ty >= static_cast<int>(height_)) continue;
     for (int i = -2; i <= 2; ++i) {
-      const int tx = static_cast<int>(x) + i * step;
-      if (tx < 0 || tx >= static_cast<int>(width_)) continue;
-      const Pixel& tap = at(static_cast<std::uint32_t>(tx), static_cast<std::uint32_t>(ty));
-      const float likeness = glm::dot(centre.normal, tap.normal);
-      if (likeness <= 0.8f) continue;
-      const float off_plane = glm::dot(centre.normal, tap.position - centre.position) * 150;
-      const float l4 = likeness * likeness * likeness * likeness;
-      const float weight = kKernel[std::abs(i)] * kKernel[std::abs(j)] * l4 * l4 / (1 + off_plane * off_plane);
-      sum += weight * tap.light;
-      weights += weight;
+      const std::ptrdiff_t tap = step * (i + j * static_cast<std::ptrdiff_t>(stride_));
+      const Float4 likeness = n[0] * load(kNormal, tap) + n[1] * load(kNormal + 1, tap) + n[2] * load(kNormal + 2, tap);
+      const Float4 like = at_least(likeness, Float4(0.8f));
+      if (!any(like)) continue;
+      const Float4 off_plane = (n[0] * (load(kPosition, tap) - p[0]) + n[1] * (load(kPosition + 1, tap) - p[1]) +
+                                n[2] * (load(kPosition + 2, tap) - p[2])) * Float4(150);
+      const Float4 l2 = likeness * likeness, l4 = l2 * l2;
+      const Float4 weight = where(like, Float4(kKernel[std::abs(i)] * kKernel[std::abs(j)]) * l4 * l4 /
+                                            (Float4(1) + off_plane * off_plane));
+      for (int c = 0; c < 3; ++c) sum[c] = sum[c] + weight * load(kLight + c, tap);
+      weights = weights + weight;
     }
   }
-  return weights > 0 ? sum / weights : centre.light;
+  alignas(16) float total[4], lights[3][4], olds[3][4];
+  weights.store(total);
+  for (int c = 0; c < 3; ++c) (sum[c] / weights).store(lights[c]), old[c].store(olds[c]);
+  for (int k = 0; k < 4; ++k) {
+    for (int c = 0; c < 3; ++c) out[c][k] = total[k] > 0 ? lights[c][k] : olds[c][k];
+  }
 }
 
 void Film::smooth_light(std::uint32_t step, Executor& executor) {
-  std::vector<Vec3> light(pixels_.size());
+  CHECK(2 * step <= kBorder);
+  std::vector<float> smoothed[3];
+  for (std::vector<float>& plane : smoothed) plane.resize(planes_[kLight].size());
   executor.for_each(height_, [&](std::size_t row, int) {
-    const auto y = static_cast<std::uint32_t>(row);
-    for (std::uint32_t x = 0; x < width_; ++x) {
-      const Pixel& p = at(x, y);
-      light[x + width_ * row] = p.normal == Vec3(0) ? p.light : smoothed(x, y, static_cast<int>(step));
+    for (std::uint32_t x = 0; x < width_; x += 4) {
+      const std::size_t p = place(x, static_cast<std::uint32_t>(row));
+      smooth_four(p, step, {smoothed[0].data() + p, smoothed[1].data() + p, smoothed[2].data() + p});
     }
   });
-  for (std::size_t i = 0; i < pixels_.size(); ++i) pixels_[i].light = light[i];
+  for (int c = 0; c < 3; ++c) planes_[kLight + c].swap(smoothed[c]);
 }
 
 float Film::ghost_change(std::uint32_t x, std::uint32_t y) const {
@@ -107,17 +140,35 @@ float Film::ghost_change(std::uint32_t x, std::uint32_t y) const {
   return std::sqrt(glm::dot(across, across) + glm::dot(down, down));
 }
 
-Picture Film::develop(Executor& executor) const {
-  Picture picture{width_, height_, std::vector<std::uint8_t>(3 * pixels_.size())};
+void Film::develop_pixel(const View& view, std::uint32_t x, std::uint32_t y, Picture& picture) const {
+  const Pixel& p = at(x, y);
+  const std::size_t plane = place(x, y), place = x + std::size_t{width_} * y;
+  Vec3 colour = p.extra;
+  float alpha = p.alpha;
+  if (p.clear >= 0) {
+    const Vec3 light(planes_[kLight][plane], planes_[kLight + 1][plane], planes_[kLight + 2][plane]);
+    const Vec3 base = p.albedo * light + p.extra;
+    colour = p.veil + p.clear * (p.seen == Seen::model ? tone(base) : base);
+    if (view.stage.clear && p.seen == Seen::ground) alpha = shadow_alpha(light);
+    alpha = 1 - p.clear * (1 - alpha);
+  }
+  if (!view.set.ghosts.empty()) {
+    const float change = ghost_change(x, y);
+    alpha = std::max(alpha, ghost_edge(Vec3(0), Vec3(1), change).x);
+    colour = ghost_edge(colour, kGhostEdge, change);
+  }
+  if (view.stage.clear) {
+    picture.alpha[place] = static_cast<std::uint8_t>(255 * std::clamp(alpha, 0.0f, 1.0f) + 0.5f);
+    colour = picture.alpha[place] > 0 ? colour / alpha : Vec3(0);
+  }
+  for (int c = 0; c < 3; ++c) picture.rgb[3 * place + static_cast<std::size_t>(c)] = developed(colour[c]);
+}
+
+Picture Film::develop(const View& view, Executor& executor) const {
+  Picture picture{width_, height_, std::vector<std::uint8_t>(3 * pixels_.size()), {}};
+  if (view.stage.clear) picture.alpha.resize(pixels_.size());
   executor.for_each(height_, [&](std::size_t row, int) {
-    const auto y = static_cast<std::uint32_t>(row);
-    for (std::uint32_t x = 0; x < width_; ++x) {
-      const Pixel& p = at(x, y);
-      const Vec3 base = p.clear < 0 ? p.extra : p.veil + p.clear * tone(p.albedo * p.light + p.extra);
-      const Vec3 colour = ghost_edge(base, ghost_change(x, y));
-      for (int c = 0; c < 3; ++c)
-        picture.rgb[3 * (x + width_ * row) + static_cast<std::size_t>(c)] = developed(colour[c]);
-    }
+    for (std::uint32_t x = 0; x < width_; ++x) develop_pixel(view, x, static_cast<std::uint32_t>(row), picture);
   });
   return picture;
 }

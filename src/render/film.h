@@ -17,34 +17,45 @@ struct Pixel {
   Vec3 albedo{0}, light{0}, extra{0};  // means; pixels of several surfaces have all in `extra`, developed
   Vec3 normal{0}, position{0};         // 0 where the light is not to be smoothed
   Vec3 veil{0};
-  float clear = 1;
+  float clear = 1;                     // -1: developed already, with alpha
   Vec3 ghost_normal{0};
+  float alpha = 1;
+  Seen seen = Seen::backdrop;
 };
 
 /// Whether the samples see one surface, so that a few of them are enough.
 bool is_plain(std::span<const Sample> samples);
 
 Pixel develop_plain(std::span<const Sample> samples);
-Pixel develop_mixed(std::span<const Sample> samples);
+Pixel develop_mixed(const View& view, std::span<const Sample> samples);
 
 class Film {
  public:
-  Film(std::uint32_t width, std::uint32_t height)
-      : width_(width), height_(height), pixels_(std::size_t{width} * height) {}
+  Film(std::uint32_t width, std::uint32_t height);
 
-  Pixel& at(std::uint32_t x, std::uint32_t y) { return pixels_[x + std::size_t{width_} * y]; }
-  const Pixel& at(std::uint32_t x, std::uint32_t y) const { return pixels_[x + std::size_t{width_} * y]; }
+  /// Pixels may be put from several threads.
+  void put(std::uint32_t x, std::uint32_t y, const Pixel& pixel);
 
-  /// One pass over taps `step` pixels apart.
+  /// One pass over taps `step` pixels apart, 1 or 2.
   void smooth_light(std::uint32_t step, Executor& executor);
-  Picture develop(Executor& executor) const;
+  /// With alpha if the stage is clear.
+  Picture develop(const View& view, Executor& executor) const;
 
  private:
-  Vec3 smoothed(std::uint32_t x, std::uint32_t y, int step) const;
+  static constexpr std::uint32_t kBorder = 4;  // around the planes: what a tap may reach, and a vector more
+  enum Plane { kNormal = 0, kPosition = 3, kLight = 6, kPlanes = 9 };
+
+  std::size_t place(std::uint32_t x, std::uint32_t y) const { return x + kBorder + stride_ * (y + kBorder); }
+  /// Four pixels from `at` on; the new light goes to `out`.
+  void smooth_four(std::size_t at, std::ptrdiff_t step, float* const (&out)[3]) const;
+  void develop_pixel(const View& view, std::uint32_t x, std::uint32_t y, Picture& picture) const;
   float ghost_change(std::uint32_t x, std::uint32_t y) const;
+  const Pixel& at(std::uint32_t x, std::uint32_t y) const { return pixels_[x + std::size_t{width_} * y]; }
 
   std::uint32_t width_, height_;
+  std::size_t stride_;
   std::vector<Pixel> pixels_;
+  std::vector<float> planes_[kPlanes];  // what is smoothed, and by what: component by component, with a border
 };
 
 }  // namespace espalier

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kMostShells = 6;
 constexpr float kBlend = 6e-3f;  // depth over which coinciding faces fade; the scene has unit radius
-const Vec3 kTint(0.16f, 0.42f, 0.90f), kEdge(0.06f, 0.22f, 0.62f);
+const Vec3 kTint(0.16f, 0.42f, 0.90f);
 
 float smooth(float x) {
   x = std::clamp(x, 0.0f, 1.0f);
@@ -38,8 +38,8 @@ void add_ghosts(const Tracer& ghosts, const Ray& ray, float far, Sample& sample)
   }
 }
 
-Vec3 ghost_edge(const Vec3& colour, float change) {
-  return colour + 0.75f * smooth((change - 0.25f) / 0.9f) * (kEdge - colour);
+Vec3 ghost_edge(const Vec3& colour, const Vec3& edge, float change) {
+  return colour + 0.75f * smooth((change - 0.25f) / 0.9f) * (edge - colour);
 }
 
 }  // namespace espalier

@@ -9,7 +9,9 @@ namespace espalier {
 /// coincides with what lies behind, it fades in over a small depth, so that neither flickers through the other.
 void add_ghosts(const Tracer& ghosts, const Ray& ray, float far, Sample& sample);
 
-/// The colour and strength of a ghost's drawn edge where the mean normals around a pixel differ by `change`.
-Vec3 ghost_edge(const Vec3& colour, float change);
+inline const Vec3 kGhostEdge(0.06f, 0.22f, 0.62f);  // colour of a ghost's drawn edge
+
+/// `colour` drawn over with `edge`, as strongly as the mean normals of ghosts around a pixel differ by `change`.
+Vec3 ghost_edge(const Vec3& colour, const Vec3& edge, float change);
 
 }  // namespace espalier

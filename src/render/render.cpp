@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include <glm/geometric.hpp>
+
 #include "base/check.h"
 #include "render/camera.h"
+#include "render/coverage.h"
 #include "render/film.h"
 #include "render/set.h"
 #include "render/shade.h"
@@ -13,52 +16,146 @@ namespace {
 
 constexpr float kMargin = 0.07f;       // of the picture's sides
 constexpr std::uint32_t kMostSamples = 256;
+constexpr float kAlike = 0.95f;        // cosine of normals that may share their light
+constexpr std::uint32_t kTile = 16;    // pixels; tiles are handed to threads
 
-/// The first samples of a pixel tell whether it sees one surface; only where it does not, the others follow.
-void trace_pixel(const Set& set, const Stage& stage, const Camera& camera, std::uint32_t x, std::uint32_t y,
-                 const RenderSettings& settings, std::vector<Sample>& scratch, Pixel& out) {
-  const std::uint32_t all =
-      std::clamp<std::uint32_t>(static_cast<std::uint32_t>(std::max(settings.samples, 1)), 1, kMostSamples);
-  const std::uint32_t few = std::min(all, std::max(2u, all / 4));
-  const PixelSamples samples(x, y);
-  scratch.clear();
-  const auto take = [&](std::uint32_t end) {
-    for (auto s = static_cast<std::uint32_t>(scratch.size()); s < end; ++s) {
-      const Vec2 jitter = samples.in_pixel(s);
-      const Vec2 picture(2 * (static_cast<float>(x) + jitter.x) / static_cast<float>(settings.width) - 1,
-                         1 - 2 * (static_cast<float>(y) + jitter.y) / static_cast<float>(settings.height));
-      scratch.push_back(trace_sample(set, stage, camera, camera.direction(picture.x, picture.y), picture, samples, s));
-    }
-  };
-  take(few);
-  if (is_plain(scratch)) {
-    out = develop_plain(scratch);
-  } else {
-    take(all);
-    out = develop_mixed(scratch);
+/// Traces pixels one by one; every worker has its own.
+class PixelTracer {
+ public:
+  PixelTracer(const View& view, int samples)
+      : view_(view),
+        all_(std::clamp<std::uint32_t>(static_cast<std::uint32_t>(std::max(samples, 1)), 1, kMostSamples)),
+        few_(std::min(all_, std::max(2u, all_ / 4))) {}
+
+  /// The first samples of a pixel tell whether it sees one surface; only where it does not, the others follow.
+  Pixel trace(std::uint32_t x, std::uint32_t y, bool may_hit) {
+    const PixelSamples places(x, y);
+    samples_.clear();
+    look(places, x, y, few_, may_hit);
+    const bool plain = is_plain(samples_);
+    if (!plain) look(places, x, y, all_, may_hit);
+    light(places);
+    return plain ? develop_plain(samples_) : develop_mixed(view_, samples_);
   }
+
+ private:
+  /// Samples of one surface in one pixel.
+  struct Group {
+    std::uint32_t surface = 0, count = 0;
+    Vec3 normal{0};
+    Light light;
+  };
+
+  void look(const PixelSamples& places, std::uint32_t x, std::uint32_t y, std::uint32_t end, bool may_hit) {
+    for (auto s = static_cast<std::uint32_t>(samples_.size()); s < end; ++s) {
+      const Vec2 in_pixel = places.in_pixel(s);
+      const Vec2 point =
+          view_.picture_point(static_cast<float>(x) + in_pixel.x, static_cast<float>(y) + in_pixel.y);
+      samples_.push_back(see(view_, point, may_hit, places.number(s)));
+    }
+  }
+
+  /// Light is gathered for the first samples of every surface, and shared with the others.
+  void light(const PixelSamples& places) {
+    groups_.clear();
+    group_of_.assign(samples_.size(), 0);
+    for (std::uint32_t s = 0; s < samples_.size(); ++s) {
+      const Sample& sample = samples_[s];
+      if (sample.layered || sample.seen == Seen::backdrop) continue;
+      std::uint32_t g = 0;
+      while (g < groups_.size() && !(groups_[g].surface == sample.surface &&
+                                     glm::dot(groups_[g].normal, sample.normal) >= kAlike)) ++g;
+      if (g == groups_.size()) groups_.push_back({sample.surface, 0, sample.normal, {}});
+      group_of_[s] = g;
+      Group& group = groups_[g];
+      if (group.count >= few_) continue;
+      const Light one = gather(view_, sample, places.number(s));
+      group.light.diffuse += one.diffuse, group.light.mirrored += one.mirrored;
+      group.light.key += one.key, group.light.open += one.open;
+      ++group.count;
+    }
+    for (Group& group : groups_) {
+      const float share = 1 / static_cast<float>(group.count);
+      group.light.diffuse *= share, group.light.mirrored *= share;
+      group.light.key *= share, group.light.open *= share;
+    }
+    for (std::size_t s = 0; s < samples_.size(); ++s) {
+      Sample& sample = samples_[s];
+      if (!sample.layered && sample.seen != Seen::backdrop) lit(view_, groups_[group_of_[s]].light, sample);
+    }
+  }
+
+  const View& view_;
+  std::uint32_t all_, few_;
+  std::vector<Sample> samples_;
+  std::vector<Group> groups_;
+  std::vector<std::uint32_t> group_of_;  // per sample
+};
+
+Picture picture_of(const View& view, int samples, Executor& executor) {
+  Coverage coverage(view.camera, view.width, view.height);
+  for (const Tracer* tracer : {&view.set.opaque, &view.set.translucent, &view.set.ghosts}) coverage.add(*tracer);
+  Film film(view.width, view.height);
+  std::vector<PixelTracer> tracers(static_cast<std::size_t>(executor.workers()), PixelTracer(view, samples));
+  const std::uint32_t columns = (view.width + kTile - 1) / kTile, rows = (view.height + kTile - 1) / kTile;
+  executor.for_each(std::size_t{columns} * rows, [&](std::size_t tile, int worker) {
+    const std::uint32_t left = static_cast<std::uint32_t>(tile % columns) * kTile,
+                        top = static_cast<std::uint32_t>(tile / columns) * kTile;
+    PixelTracer& tracer = tracers[static_cast<std::size_t>(worker)];
+    for (std::uint32_t y = top; y < std::min(top + kTile, view.height); ++y) {
+      for (std::uint32_t x = left; x < std::min(left + kTile, view.width); ++x)
+        film.put(x, y, tracer.trace(x, y, coverage.may_show(x, y)));
+    }
+  });
+  for (const std::uint32_t step : {1u, 2u}) film.smooth_light(step, executor);
+  return film.develop(view, executor);
+}
+
+Lens lens_for(const RenderSettings& s, const Set& set) {
+  CHECK(s.width > 0 && s.height > 0);
+  if (s.tall) return parallel_lens(static_cast<float>(*s.tall * set.scale), s.width, s.height);
+  return s.fov_deg ? lens_of_angle(*s.fov_deg, s.width, s.height) : long_lens(s.width, s.height);
+}
+
+Camera placed(const CameraPlace& place, const Set& set, const Lens& lens) {
+  CHECK(place.eye != place.at);
+  return placed_camera(set.unit_point(place.eye), set.unit_point(place.at), lens);
+}
+
+Stage stage_for(const RenderSettings& settings, const Set& set, const Camera& camera) {
+  Stage stage = make_stage(set.lowest, camera);
+  stage.ground = settings.ground, stage.clear = settings.transparent, stage.background = settings.background;
+  return stage;
 }
 
 }  // namespace
 
 Picture render(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
                const std::vector<Mesh>& ghosts, const RenderSettings& settings, Executor& executor) {
-  CHECK(settings.width > 0 && settings.height > 0);
-  Set set = build_set(model, meshes, surfaces, ghosts, settings.full);
-  const Camera camera = frame_points(set.corners, settings.azimuth_deg, settings.elevation_deg, settings.width,
-                                     settings.height, kMargin);
-  const Stage stage = make_stage(set.lowest, camera);
-  set.pixel_angle = 2 * camera.tan_y / static_cast<float>(settings.height);
-  Film film(settings.width, settings.height);
-  std::vector<std::vector<Sample>> scratch(static_cast<std::size_t>(executor.workers()));
-  executor.for_each(settings.height, [&](std::size_t row, int worker) {
-    const auto y = static_cast<std::uint32_t>(row);
-    for (std::uint32_t x = 0; x < settings.width; ++x) {
-      trace_pixel(set, stage, camera, x, y, settings, scratch[static_cast<std::size_t>(worker)], film.at(x, y));
-    }
-  });
-  for (const std::uint32_t step : {1u, 2u}) film.smooth_light(step, executor);
-  return film.develop(executor);
+  const Set set = build_set(model, meshes, surfaces, ghosts, settings.full);
+  const Lens lens = lens_for(settings, set);
+  const Camera camera =
+      settings.place ? placed(*settings.place, set, lens)
+                     : frame_points(set.corners, settings.azimuth_deg, settings.elevation_deg, lens, kMargin);
+  const View view{set, stage_for(settings, set, camera), camera, settings.width, settings.height};
+  return picture_of(view, settings.samples, executor);
+}
+
+void render_turntable(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
+                      const std::vector<Mesh>& ghosts, const RenderSettings& settings, const Turntable& turntable,
+                      Executor& executor, const std::function<void(std::uint32_t, Picture)>& take) {
+  const Set set = build_set(model, meshes, surfaces, ghosts, settings.full);
+  const Lens lens = lens_for(settings, set);
+  const Camera first =
+      settings.place ? placed(*settings.place, set, lens)
+                     : frame_turning(set.corners, settings.azimuth_deg, settings.elevation_deg, lens, kMargin);
+  const Vec3 axis = settings.place ? set.unit_point(settings.place->at) : Vec3(0);
+  View view{set, stage_for(settings, set, first), first, settings.width, settings.height};
+  for (std::uint32_t frame = 0; frame < turntable.frames; ++frame) {
+    view.camera = turned(first, axis, 360.0f * static_cast<float>(frame) / static_cast<float>(turntable.frames));
+    if (!turntable.fixed_light) view.stage.to_key = make_stage(set.lowest, view.camera).to_key;
+    take(frame, picture_of(view, settings.samples, executor));
+  }
 }
 
 }  // namespace espalier

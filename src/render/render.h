@@ -3,6 +3,8 @@
 // translucent ghost. The same bytes on every machine and for any number of threads.
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,19 +18,47 @@ namespace espalier {
 struct Picture {
   std::uint32_t width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
+  std::vector<std::uint8_t> alpha = {};  // one per pixel, colours not multiplied by it; empty: all is opaque
+};
+
+/// In model space, m. They must differ.
+struct CameraPlace {
+  Vec3 eye{0, 0, 5}, at{0};
 };
 
 struct RenderSettings {
   std::uint32_t width = 1200, height = 900;
   float azimuth_deg = 35, elevation_deg = 22;  // where the camera stands, seen from the middle of the model
   bool full = true;                            // else parts
-  int samples = 16;                            // per pixel
+  int samples = 16;                            // per pixel, where edges cross it; 1..256
+
+  std::optional<CameraPlace> place;  // instead of azimuth, elevation and framing
+  std::optional<float> fov_deg;      // vertical angle of view, in (0, 180); none: a long lens
+  std::optional<float> tall;         // m from the picture's lower edge to its upper, > 0: parallel rays
+  bool ground = true;                // which shows nothing but shadows
+  bool transparent = false;          // alpha instead of a background; the ground's shadows stay
+  std::optional<Vec3> background;    // linear light; none: a light backdrop
 };
 
 /// A picture of the model; `ghosts` are meshes in model space drawn as translucent shells. Frames what it is given; an
 /// empty model gives an empty stage.
 Picture render(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
                const std::vector<Mesh>& ghosts, const RenderSettings& settings, Executor& executor);
+
+struct Turntable {
+  std::uint32_t frames = 8;  // evenly around the model; the first is what `settings` ask for
+  bool fixed_light = false;  // stays with the model; else with the camera
+};
+
+/// The camera goes round the vertical axis of the model, or round `settings.place->at`, against the clock seen from above.
+/// All frames have the same distance and lens, which show the model whole from all sides. Calls take(0, ..), take(1, ..)
+/// one after another.
+void render_turntable(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
+                      const std::vector<Mesh>& ghosts, const RenderSettings& settings, const Turntable& turntable,
+                      Executor& executor, const std::function<void(std::uint32_t frame, Picture picture)>& take);
+
+/// Equal pictures side by side without gaps, row by row, in so many columns; 0 = near to 4:3, with few places empty.
+Picture picture_strip(const std::vector<Picture>& frames, std::uint32_t columns = 0);
 
 struct SheetCell {
   Picture picture;

@@ -2,6 +2,7 @@
 // Sampling: where in a pixel, on a light and over a hemisphere the samples of a pixel go. Additive recurrences in the
 // generalised golden ratio (Roberts 2018): any few in a row are evenly spread. Pixels count on along the Morton curve,
 // so that neighbours complement each other and smoothing over them leaves little noise. Integers until the last step.
+// What is drawn from them for lights comes from tables, which begin anew after a square of 32 x 32 pixels.
 
 #include <cmath>
 #include <cstdint>
@@ -18,11 +19,11 @@ class PixelSamples {
   PixelSamples(std::uint32_t x, std::uint32_t y) : first_(kPerPixel * (spread(x) | spread(y) << 1)) {}
 
   Vec2 in_pixel(std::uint32_t s) const { return pair(s, 0xc13fa9aau, 0x91e10da6u); }
-  Vec2 on_light(std::uint32_t s) const { return pair(first_ + s, 0xdb4f0b91u, 0xbbe05635u); }
-  Vec2 over_hemisphere(std::uint32_t s) const { return pair(first_ + s, 0xa0f2ec76u, 0x89e18286u); }
-  Vec2 in_lobe(std::uint32_t s) const { return pair(first_ + s, 0x91e10da6u, 0xa0f2ec76u); }
+  /// The number of a sample among all, for LightTables.
+  std::uint32_t number(std::uint32_t s) const { return first_ + s; }
 
  private:
+  friend class LightTables;
   static constexpr std::uint32_t kPerPixel = 4;
 
   static Vec2 pair(std::uint32_t n, std::uint32_t step_u, std::uint32_t step_v) {
@@ -59,21 +60,36 @@ inline void complete_basis(const Vec3& n, Vec3& b1, Vec3& b2) {
   b2 = Vec3(b, sign + n.y * n.y * a, -n.y);
 }
 
-/// A direction about n with density cosine / pi.
-inline Vec3 cosine_hemisphere(const Vec3& n, const Vec2& u) {
-  const Vec2 d = on_disc(u);
-  Vec3 b1, b2;
-  complete_basis(n, b1, b2);
-  const float up = 1 - d.x * d.x - d.y * d.y;
-  return d.x * b1 + d.y * b2 + (up > 0 ? std::sqrt(up) : 0.0f) * n;
-}
+/// Points and directions by a sample's number.
+class LightTables {
+ public:
+  static constexpr std::uint32_t kSize = 4096;
+  static const LightTables& shared();
 
-/// A direction within a cone about the unit vector `axis`; `spread` is the tangent of its half angle.
-inline Vec3 in_cone(const Vec3& axis, float spread, const Vec2& u) {
-  const Vec2 d = spread * on_disc(u);
+  /// On the unit disc.
+  Vec2 on_light(std::uint32_t number) const { return light_[number % kSize]; }
+  Vec2 in_lobe(std::uint32_t number) const { return lobe_[number % kSize]; }
+  /// A direction about the unit vector n with density cosine / pi.
+  Vec3 over_hemisphere(const Vec3& n, std::uint32_t number) const {
+    const Vec3& d = hemisphere_[number % kSize];
+    Vec3 b1, b2;
+    complete_basis(n, b1, b2);
+    return d.x * b1 + d.y * b2 + d.z * n;
+  }
+
+ private:
+  LightTables();
+
+  Vec2 light_[kSize], lobe_[kSize];
+  Vec3 hemisphere_[kSize];
+};
+
+/// The direction within a cone about the unit vector `axis`, whose half angle has the tangent `spread`, at `d` of the disc.
+inline Vec3 in_cone(const Vec3& axis, float spread, const Vec2& d) {
   Vec3 b1, b2;
   complete_basis(axis, b1, b2);
-  return glm::normalize(axis + d.x * b1 + d.y * b2);
+  const float x = spread * d.x, y = spread * d.y;
+  return (1 / std::sqrt(1 + x * x + y * y)) * (axis + x * b1 + y * b2);
 }
 
 }  // namespace espalier

@@ -114,9 +114,9 @@ class SetBuilder {
     }
     for (const Mesh& ghost : ghosts_) all.add(bounds(ghost));
     if (all.empty()) return;
-    centre_ = 0.5 * (glm::dvec3(all.min) + glm::dvec3(all.max));
+    set_.centre = 0.5 * (glm::dvec3(all.min) + glm::dvec3(all.max));
     const double radius = 0.5 * glm::length(glm::dvec3(all.max) - glm::dvec3(all.min));
-    scale_ = radius > 0 ? 1 / radius : 1;
+    set_.scale = radius > 0 ? 1 / radius : 1;
   }
 
   static std::vector<Vec3> box_corners(const Bounds& b) {
@@ -128,7 +128,7 @@ class SetBuilder {
     return out;
   }
 
-  Vec3 unit_point(const Vec3& p) const { return Vec3((glm::dvec3(p) - centre_) * scale_); }
+  Vec3 unit_point(const Vec3& p) const { return set_.unit_point(p); }
 
   Placed place(const Part& part, const Shape& shape) {
     Placed placed;
@@ -136,7 +136,7 @@ class SetBuilder {
     placed.cutout = part.material < cutout_of_.size() ? cutout_of_[part.material] : nullptr;
     const bool textured = set_.texture(part.material);
     const Mat3 basis = with_depth(part.model_from_shape.basis, shape.box);
-    const glm::dmat3 unit_basis = glm::dmat3(basis) * scale_;
+    const glm::dmat3 unit_basis = glm::dmat3(basis) * set_.scale;
     for (const Vec3& corner : box_corners(shape.box)) {
       set_.corners.push_back(unit_point(part.model_from_shape.point(corner)));
     }
@@ -150,7 +150,7 @@ class SetBuilder {
     TriangleSet*& known = shapes_[2 * part.shape + (textured ? 1 : 0)];
     if (!known) known = keep(textured ? with_uvs(shape.mesh) : Mesh(shape.mesh));
     placed.shape = known;
-    const glm::dvec3 origin = (glm::dvec3(part.model_from_shape.origin) - centre_) * scale_;
+    const glm::dvec3 origin = (glm::dvec3(part.model_from_shape.origin) - set_.centre) * set_.scale;
     const glm::dmat3 inverse = glm::inverse(unit_basis);
     placed.world_from_shape = {Mat3(unit_basis), Vec3(origin)};
     placed.shape_from_world = {Mat3(inverse), Vec3(-(inverse * origin))};
@@ -196,8 +196,6 @@ class SetBuilder {
   std::vector<Mesh> ghosts_;
   std::vector<TriangleSet*> shapes_;  // per shape of parts_, without and with texture coordinates; once used
   std::vector<const Cutout*> cutout_of_;  // per material
-  glm::dvec3 centre_{0};
-  double scale_ = 1;
   Set set_;
 };
 

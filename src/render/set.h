@@ -14,7 +14,10 @@ namespace espalier {
 struct Set {
   Tracer opaque, translucent, ghosts;
   Surfaces surfaces;
-  float pixel_angle = 0;  // between the rays of two neighbouring pixels
+  // unit_point = (model_point - centre) * scale
+  glm::dvec3 centre{0};
+  double scale = 1;
+  Vec3 unit_point(const Vec3& p) const { return Vec3((glm::dvec3(p) - centre) * scale); }
   /// Corners of all parts' and ghosts' boxes, for the camera.
   std::vector<Vec3> corners;
   float lowest = 0;

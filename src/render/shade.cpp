@@ -13,33 +13,10 @@ constexpr std::uint32_t kGround = 0xfffffffeu, kBackdrop = 0xffffffffu;
 constexpr float kOffset = 4e-4f;        // shadow rays start this far from the surface; the scene has unit radius
 constexpr float kSkyReach = 1.2f;       // what is farther away does not darken the sky
 constexpr float kGroundReach = 2.0f;
+constexpr float kBounce = 0.28f;        // of the sky comes back from what hides it: surfaces nearby are lit too
+constexpr float kGroundEdge2 = 36;      // squared distance where the ground ends
+constexpr float kMirrors = 0.05f;       // what metal below shows of its surroundings is not looked for
 constexpr int kMostLayers = 8;
-
-/// What arrives at a surface.
-struct Light {
-  Vec3 diffuse{0};  // per unit albedo
-  float key = 0;    // share of the key light seen
-  float open = 1;   // 0 where the sampled sky direction is blocked
-};
-
-Light gather(const Set& set, const Stage& stage, const Vec3& position, const Vec3& flat, const Vec3& smooth,
-             const PixelSamples& samples, std::uint32_t s) {
-  Light light;
-  const Vec3 start = position + kOffset * flat;
-  const Vec3 to_key = in_cone(stage.to_key, kKeySpread, samples.on_light(s));
-  const float facing = glm::dot(smooth, to_key);
-  if (facing > 0 && glm::dot(flat, to_key) > 0 && !set.opaque.blocks({start, to_key, 0}, 1e30f)) {
-    light.key = 1;
-    light.diffuse += facing * key_radiance();
-  }
-  Vec3 out = cosine_hemisphere(smooth, samples.over_hemisphere(s));
-  if (glm::dot(out, flat) < 0) out -= 2 * glm::dot(out, flat) * flat;
-  const bool blocked = set.opaque.blocks({start, out, 0}, kSkyReach);
-  light.open = blocked ? 0 : 1;
-  // Neighbouring surfaces are lit too: a share of the sky comes back from them.
-  light.diffuse += (blocked ? 0.28f : 1.0f) * sky(out);
-  return light;
-}
 
 /// GGX highlight of the key light with Kelemen's visibility, Schlick's Fresnel (Karis 2013).
 Vec3 highlight(const Vec3& n, const Vec3& to_eye, const Vec3& to_key, float roughness, const Vec3& facing_colour) {
@@ -61,14 +38,15 @@ struct Look {
   float opacity = 1, texture_alpha = 1;
 };
 
-Look look_of(const Set& set, const Tracer& tracer, const Tracer::Hit& hit) {
+/// `pixel`: how wide what a pixel shows is there.
+Look look_of(const Set& set, const Tracer& tracer, const Tracer::Hit& hit, float pixel) {
   const std::uint16_t index = tracer.part(hit.part).material;
   const Material& m = set.material(index);
   Look look{m.color, std::clamp(m.opacity, 0.0f, 1.0f), 1};
   if (const TextureSampler* texture = set.texture(index)) {
     float share = 0;
     const Vec2 repeats = m.repeats(), uv = tracer.uv(hit, share) * repeats;
-    const auto texel = texture->at(uv, share * hit.t * set.pixel_angle * std::sqrt(repeats.x * repeats.y));
+    const auto texel = texture->at(uv, share * pixel * std::sqrt(repeats.x * repeats.y));
     look.color *= texel.color;
     look.texture_alpha = texel.alpha;
     look.opacity *= texel.alpha;
@@ -76,99 +54,155 @@ Look look_of(const Set& set, const Tracer& tracer, const Tracer::Hit& hit) {
   return look;
 }
 
-/// Fills in colour and light of a hit on the model.
-void shade_surface(const Set& set, const Stage& stage, const Tracer& tracer, const Tracer::Hit& hit, const Vec3& color,
-                   const Vec3& eye, const Vec3& direction, const PixelSamples& samples, std::uint32_t s, Sample& out) {
-  Vec3 flat, smooth;
-  tracer.normals(hit, direction, flat, smooth);
-  const Material& m = set.material(tracer.part(hit.part).material);
-  const float metal = std::clamp(m.metal, 0.0f, 1.0f), roughness = std::clamp(m.roughness, 0.0f, 1.0f);
-  out.position = eye + hit.t * direction;
-  out.normal = smooth;
-  const Light light = gather(set, stage, out.position, flat, smooth, samples, s);
-  const Vec3 to_eye = -direction, facing_colour = Vec3(0.04f * (1 - metal)) + metal * color;
-  if (light.key > 0) out.extra += key_radiance() * highlight(smooth, to_eye, stage.to_key, roughness, facing_colour);
-  // The surroundings mirrored: sharper for smooth surfaces, brighter at grazing angles. What metals mirror is noisy and
-  // has their colour, so it counts as light.
-  const float n_v = std::max(glm::dot(smooth, to_eye), 0.0f), m1 = 1 - n_v, m5 = m1 * m1 * m1 * m1 * m1;
-  const Vec3 mirrored = in_cone(2 * n_v * smooth - to_eye, 0.02f + 0.7f * roughness, samples.in_lobe(s));
-  const bool dark = metal > 0.05f && set.opaque.blocks({out.position + kOffset * flat, mirrored, 0}, kSkyReach);
-  const Vec3 reflection = (dark ? 0.35f : 1.0f) * studio(mirrored, stage.to_key);
-  out.albedo = color;
-  out.light = (1 - metal) * light.diffuse + metal * reflection;
-  const float sheen = (1 - metal) * (0.04f + (1 - roughness) * m5) + metal * 0.5f * m5;
-  out.extra += sheen * (0.4f + 0.6f * light.open) * reflection;
-  // A faint rim from above and behind parts dark shapes from dark neighbours.
-  out.extra += Vec3(0.10f * m1 * m1 * m1 * (0.6f + 0.4f * smooth.y) * light.open) * (Vec3(0.3f) + color);
-  out.extra += std::min(m.glow, 4.0f) * color;
+void see_surface(const View& view, const Tracer& tracer, const Ray& ray, const Tracer::Hit& hit, const Vec3& color,
+                 Sample& out) {
+  const Material& m = view.set.material(tracer.part(hit.part).material);
+  tracer.normals(hit, ray.direction, out.flat, out.normal);
+  out.seen = Seen::model;
+  out.surface = hit.part;
+  out.position = ray.at(hit.t);
+  out.to_eye = -ray.direction;
+  out.color = color;
+  out.metal = std::clamp(m.metal, 0.0f, 1.0f), out.roughness = std::clamp(m.roughness, 0.0f, 1.0f);
+  out.glow = m.glow;
 }
 
-/// The ground, which shows nothing but shadows, and the backdrop.
-void shade_stage(const Set& set, const Stage& stage, const Vec3& eye, const Vec3& direction, float ground_t,
-                 const Vec2& picture, const PixelSamples& samples, std::uint32_t s, Sample& out) {
-  out.albedo = backdrop(picture.x, picture.y);
+/// The ground, which shows nothing but shadows, or the backdrop; how far away it is.
+float see_stage(const View& view, const Ray& ray, const Vec2& picture, Sample& out) {
+  const Stage& stage = view.stage;
+  out.albedo = backdrop(stage, picture);
   out.light = Vec3(1);
   out.surface = kBackdrop;
-  if (!(ground_t < 1e30f)) return;
-  const Vec3 p = eye + ground_t * direction;
-  const float away2 = p.x * p.x + p.z * p.z;
-  if (away2 > 36) return;
+  out.alpha = stage.clear ? 0 : 1;
+  if (!stage.ground || !(ray.direction.y < -1e-4f) || !(ray.origin.y > stage.ground_y)) return 1e30f;
+  const float t = (stage.ground_y - ray.origin.y) / ray.direction.y;
+  const Vec3 p = ray.at(t);
+  if (p.x * p.x + p.z * p.z > kGroundEdge2) return t;
+  out.seen = Seen::ground;
   out.surface = kGround;
   out.position = p;
-  out.normal = Vec3(0, 1, 0);
-  const Vec3 start = p + Vec3(0, kOffset, 0);
-  const bool key = !set.opaque.blocks({start, in_cone(stage.to_key, kKeySpread, samples.on_light(s)), 0}, 1e30f);
-  const Vec3 out_direction = cosine_hemisphere(out.normal, samples.over_hemisphere(s));
-  const bool open = !set.opaque.blocks({start, out_direction, 0}, kGroundReach);
-  const float fade = std::clamp((36 - away2) / 20, 0.0f, 1.0f);
-  out.light = Vec3(1) + fade * (ground_light(key ? 1.0f : 0.0f, open ? 1.0f : 0.0f) - Vec3(1));
+  out.flat = out.normal = Vec3(0, 1, 0);
+  return t;
+}
+
+/// Roughly the light from a part that a mirroring surface shows, as if nothing stood around it.
+Vec3 mirrored_part(const View& view, const Ray& ray, const Tracer::Hit& hit) {
+  Vec3 flat, smooth;
+  view.set.opaque.normals(hit, ray.direction, flat, smooth);
+  const Vec3 color = look_of(view.set, view.set.opaque, hit, 0.02f * (1 + hit.t)).color;
+  const float facing = std::max(glm::dot(smooth, view.stage.to_key), 0.0f);
+  return color * (0.7f * sky(smooth) + 0.45f * facing * key_radiance());
+}
+
+void gather_mirrored(const View& view, const Sample& sample, const Vec3& start, std::uint32_t number, Light& light) {
+  const float n_v = std::max(glm::dot(sample.normal, sample.to_eye), 0.0f);
+  const Vec3 mirror = 2 * n_v * sample.normal - sample.to_eye;
+  const Vec3 direction = in_cone(mirror, 0.02f + 0.7f * sample.roughness, view.stage.tables->in_lobe(number));
+  if (sample.metal > kMirrors) {
+    const Ray ray{start, direction, 0};
+    if (const Tracer::Hit hit = view.set.opaque.intersect(ray, kSkyReach)) {
+      light.mirrored = mirrored_part(view, ray, hit);
+      return;
+    }
+  }
+  light.mirrored = studio(direction, view.stage.to_key);
 }
 
 /// Lays translucent parts in front of what the sample holds, the farthest first.
-void add_layers(const Set& set, const Stage& stage, const Vec3& eye, const Vec3& direction, float far,
-                const PixelSamples& samples, std::uint32_t s, Sample& sample) {
+void add_layers(const View& view, const Ray& ray, float far, std::uint32_t number, Sample& sample) {
   Tracer::Hit hits[kMostLayers];
   int count = 0;
-  float near = 0;
+  Ray rest = ray;
   while (count < kMostLayers) {
-    const Tracer::Hit hit = set.translucent.intersect({eye, direction, near}, far);
+    const Tracer::Hit hit = view.set.translucent.intersect(rest, far);
     if (!hit) break;
     hits[count++] = hit;
-    near = hit.t + 2 * Tracer::kTie;
+    rest.near = hit.t + 2 * Tracer::kTie;
   }
+  if (count == 0) return;
+  lit(view, gather(view, sample, number), sample);
+  if (sample.seen == Seen::ground && view.stage.clear) sample.alpha = shadow_alpha(sample.light);
   for (int k = count; k-- > 0;) {
     Sample layer;
-    const Look look = look_of(set, set.translucent, hits[k]);
-    shade_surface(set, stage, set.translucent, hits[k], look.color, eye, direction, samples, s, layer);
+    const Look look =
+        look_of(view.set, view.set.translucent, hits[k], view.camera.pixel_width(hits[k].t, view.height));
+    see_surface(view, view.set.translucent, ray, hits[k], look.color, layer);
+    lit(view, gather(view, layer, number), layer);
     const Vec3 behind = sample.albedo * sample.light + sample.extra;
     sample.extra = look.opacity * (layer.albedo * layer.light) + look.texture_alpha * layer.extra +
                    (1 - look.opacity) * behind;
+    sample.alpha = 1 - (1 - look.opacity) * (1 - sample.alpha);
     sample.albedo = Vec3(0);
-    sample.layered = true;
   }
+  sample.seen = Seen::model;
+  sample.layered = true;
 }
 
 }  // namespace
 
-Sample trace_sample(const Set& set, const Stage& stage, const Camera& camera, const Vec3& direction,
-                    const Vec2& picture, const PixelSamples& samples, std::uint32_t s) {
+Sample see(const View& view, const Vec2& picture, bool may_hit, std::uint32_t number) {
   Sample sample;
-  const Vec3& eye = camera.eye;
-  const Tracer::Hit hit = set.opaque.intersect({eye, direction, 0});
+  const Set& set = view.set;
+  const Ray ray = view.camera.ray(picture.x, picture.y);
+  const Tracer::Hit hit = may_hit ? set.opaque.intersect(ray) : Tracer::Hit{};
   float far = hit.t;
   if (hit) {
-    sample.surface = hit.part;
-    const Vec3 color = look_of(set, set.opaque, hit).color;
-    shade_surface(set, stage, set.opaque, hit, color, eye, direction, samples, s, sample);
+    const Look look = look_of(set, set.opaque, hit, view.camera.pixel_width(hit.t, view.height));
+    see_surface(view, set.opaque, ray, hit, look.color, sample);
   } else {
-    const float ground_t = direction.y < -1e-4f && eye.y > stage.ground_y
-                               ? (stage.ground_y - eye.y) / direction.y : 1e30f;
-    shade_stage(set, stage, eye, direction, ground_t, picture, samples, s, sample);
-    far = ground_t;
+    far = see_stage(view, ray, picture, sample);
   }
-  if (!set.translucent.empty()) add_layers(set, stage, eye, direction, far, samples, s, sample);
-  if (!set.ghosts.empty()) add_ghosts(set.ghosts, {eye, direction, 0}, far, sample);
+  if (may_hit && !set.translucent.empty()) add_layers(view, ray, far, number, sample);
+  if (may_hit && !set.ghosts.empty()) add_ghosts(set.ghosts, ray, far, sample);
   return sample;
+}
+
+Light gather(const View& view, const Sample& sample, std::uint32_t number) {
+  Light light;
+  if (sample.seen == Seen::backdrop) return light;
+  const Tracer& opaque = view.set.opaque;
+  const LightTables& tables = *view.stage.tables;
+  const Vec3 start = sample.position + kOffset * sample.flat;
+  const Vec3 to_key = in_cone(view.stage.to_key, kKeySpread, tables.on_light(number));
+  const float facing = glm::dot(sample.normal, to_key);
+  if (facing > 0 && glm::dot(sample.flat, to_key) > 0 && !opaque.blocks({start, to_key, 0}, 1e30f)) {
+    light.key = 1;
+    light.diffuse += facing * key_radiance();
+  }
+  Vec3 out = tables.over_hemisphere(sample.normal, number);
+  const bool ground = sample.seen == Seen::ground;
+  if (glm::dot(out, sample.flat) < 0) out -= 2 * glm::dot(out, sample.flat) * sample.flat;
+  const bool blocked = opaque.blocks({start, out, 0}, ground ? kGroundReach : kSkyReach);
+  light.open = blocked ? 0 : 1;
+  if (ground) return light;
+  light.diffuse += (blocked ? kBounce : 1.0f) * sky(out);
+  gather_mirrored(view, sample, start, number, light);
+  return light;
+}
+
+void lit(const View& view, const Light& light, Sample& out) {
+  if (out.seen == Seen::backdrop) return;
+  if (out.seen == Seen::ground) {
+    const float away2 = out.position.x * out.position.x + out.position.z * out.position.z;
+    const float fade = std::clamp((kGroundEdge2 - away2) / 20, 0.0f, 1.0f);
+    out.light = Vec3(1) + fade * (ground_light(light.key, light.open) - Vec3(1));
+    return;
+  }
+  const Vec3 &n = out.normal, &color = out.color, &to_key = view.stage.to_key;
+  const float metal = out.metal;
+  const Vec3 facing_colour = Vec3(0.04f * (1 - metal)) + metal * color;
+  out.extra = light.key * key_radiance();
+  if (light.key > 0) out.extra *= highlight(n, out.to_eye, to_key, out.roughness, facing_colour);
+  // The surroundings mirrored: sharper for smooth surfaces, brighter at grazing angles. What metals mirror is noisy and
+  // has their colour, so it counts as light.
+  const float m1 = 1 - std::max(glm::dot(n, out.to_eye), 0.0f), m5 = m1 * m1 * m1 * m1 * m1;
+  out.albedo = color;
+  out.light = (1 - metal) * light.diffuse + metal * light.mirrored;
+  const float sheen = (1 - metal) * (0.04f + (1 - out.roughness) * m5) + metal * 0.5f * m5;
+  out.extra += sheen * (0.4f + 0.6f * light.open) * light.mirrored;
+  // A faint rim from above and behind parts dark shapes from dark neighbours.
+  out.extra += Vec3(0.10f * m1 * m1 * m1 * (0.6f + 0.4f * n.y) * light.open) * (Vec3(0.3f) + color);
+  out.extra += std::min(out.glow, 4.0f) * color;
 }
 
 Vec3 tone(const Vec3& light) {
@@ -182,6 +216,16 @@ Vec3 tone(const Vec3& light) {
   return out;
 }
 
-Vec3 colour_of(const Sample& s) { return s.veil + s.clear * tone(s.albedo * s.light + s.extra); }
+float shadow_alpha(const Vec3& light) { return std::clamp(1 - (light.x + light.y + light.z) / 3, 0.0f, 1.0f); }
+
+Vec3 colour_of(const Sample& s) {
+  const Vec3 base = s.albedo * s.light + s.extra;
+  return s.veil + s.clear * (s.seen == Seen::model ? tone(base) : base);
+}
+
+float alpha_of(const View& view, const Sample& s) {
+  const float base = view.stage.clear && s.seen == Seen::ground ? shadow_alpha(s.light) : s.alpha;
+  return 1 - s.clear * (1 - base);
+}
 
 }  // namespace espalier

@@ -18,13 +18,19 @@ float smooth(float x) {
 
 Stage make_stage(float ground_y, const Camera& camera) {
   // Over the left shoulder and well above: 50 degrees aside, 50 up.
-  const Vec3 back = glm::normalize(Vec3(-camera.forward.x, 0, -camera.forward.z));
-  return {ground_y, glm::normalize(0.55f * back - 0.62f * camera.right + Vec3(0, 1.0f, 0))};
+  const Vec3 back = glm::cross(camera.right, Vec3(0, 1, 0));
+  Stage stage;
+  stage.ground_y = ground_y;
+  stage.to_key = glm::normalize(0.55f * back - 0.62f * camera.right + Vec3(0, 1.0f, 0));
+  stage.tables = &LightTables::shared();
+  return stage;
 }
 
-Vec3 backdrop(float x, float y) {
-  const float away = 0.42f * x * x + 0.5f * (y + 0.15f) * (y + 0.15f);
-  const Vec3 middle(0.80f, 0.80f, 0.795f), rim(0.43f, 0.44f, 0.46f);
+Vec3 backdrop(const Stage& stage, const Vec2& picture) {
+  if (stage.clear) return Vec3(0);
+  if (stage.background) return *stage.background;
+  const float x = picture.x, y = picture.y + 0.15f, away = 0.42f * x * x + 0.5f * y * y;
+  const Vec3 middle(0.78f, 0.78f, 0.775f), rim(0.43f, 0.44f, 0.46f);
   return mix(middle, rim, smooth(away));
 }
 

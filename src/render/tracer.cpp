@@ -95,7 +95,7 @@ bool TriangleSet::intersect(const Ray& ray, Hit& hit, const Cutout* cutout) cons
 }
 
 bool TriangleSet::blocks(const Ray& ray, float far, const Cutout* cutout) const {
-  return bvh_.traverse(ray, far, [&](std::uint32_t leaf) {
+  return bvh_.traverse_unordered(ray, far, [&](std::uint32_t leaf) {
     alignas(16) float t[4], u[4], v[4];
     const unsigned mask = intersect_block(blocks_[leaf], ray, far, t, u, v);
     if (!cutout) return mask != 0;
@@ -134,7 +134,7 @@ Tracer::Hit Tracer::intersect(const Ray& ray, float far) const {
 }
 
 bool Tracer::blocks(const Ray& ray, float far) const {
-  return bvh_.traverse(ray, far, [&](std::uint32_t leaf) {
+  return bvh_.traverse_unordered(ray, far, [&](std::uint32_t leaf) {
     const Placed& part = parts_[bvh_.leaves()[leaf][0]];
     return part.shape->blocks({part.shape_from_world.point(ray.origin), part.shape_from_world.vector(ray.direction),
                                ray.near}, far, part.cutout);

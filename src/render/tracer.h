@@ -73,6 +73,7 @@ class Tracer {
 
   const Placed& part(std::uint32_t i) const { return parts_[i]; }
   bool empty() const { return parts_.empty(); }
+  std::size_t size() const { return parts_.size(); }
   const Bounds& box() const { return bvh_.box(); }
 
   /// Unit normals at a hit: of the triangle, and interpolated. Both on the side that the ray comes from.
