@@ -119,12 +119,13 @@ Lens lens_for(const RenderSettings& s, const Set& set) {
 
 Camera placed(const CameraPlace& place, const Set& set, const Lens& lens) {
   CHECK(place.eye != place.at);
-  return placed_camera(set.unit_point(place.eye), set.unit_point(place.at), lens);
+  return placed_camera(set.unit_point(place.eye), set.unit_point(place.at), lens, place.up);
 }
 
 Stage stage_for(const RenderSettings& settings, const Set& set, const Camera& camera) {
   Stage stage = make_stage(set.lowest, camera);
   stage.ground = settings.ground, stage.clear = settings.transparent, stage.background = settings.background;
+  if (settings.to_light) stage.to_key = glm::normalize(*settings.to_light);
   return stage;
 }
 

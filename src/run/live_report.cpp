@@ -23,7 +23,7 @@ constexpr double kHindrance = 2;  // a second of painting costs the search up to
 constexpr double kFirst_s = 1;         // a first picture comes soon
 constexpr std::uint32_t kMostAcross = 480;
 constexpr int kSamples = 4;
-constexpr OutcomeLook kLiveOutcomes{480, 720, 1};
+constexpr OutcomeLook kLiveOutcomes{{360, 360}, kSamples, 480, 720, 1};
 
 RenderSettings small_look(std::array<std::uint32_t, 2> size) {
   const std::uint32_t longer = std::max({size[0], size[1], kMostAcross});
@@ -65,11 +65,12 @@ class LiveReport::Painter {
     result_.explanation = scorer_.explain(result_.best.derivation);
     expander_.expand(result_.best.derivation, ExpandTo::full, model_);
     const std::vector<Material>& materials = setup_.graph().materials;
-    const Picture picture = render(model_, setup_.meshes, materials, setup_.targets, look_, *executor_);
+    const Surfaces surfaces = materials;
+    const Picture picture = render(model_, setup_.meshes, surfaces, setup_.targets, look_, *executor_);
     const Provenance from = provenance();
     const std::string png = encode_png(picture.width, picture.height, picture.rgb, "espalier", to_json(from));
     ReportInput input{setup_, result_, from, {"Best so far", "", png}, *targets_, {}, {}, {}, note_};
-    input.outcomes = outcome_pictures(setup_, model_, kLiveOutcomes, *executor_);
+    input.outcomes = outcome_pictures({setup_, model_, surfaces}, kLiveOutcomes, *executor_);
     input.model = make_report_model(model_, setup_.meshes, materials, setup_.targets);
     const std::string page = report_page(input);
     write_file((fs::path(folder_) / "best.png").string(), png);

@@ -1,6 +1,9 @@
 #pragma once
-// Outcome pictures: what a run's best does with its targets, drawn: an overlay per silhouette, one of the volume.
+// Outcome pictures: what a run's best does with its targets, drawn: per silhouette a view from its camera and an overlay,
+// and an overlay of the volume.
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,30 +13,41 @@
 
 namespace espalier {
 
+/// What is drawn: a model, expanded with its details.
+struct Outcome {
+  const Setup& setup;
+  const Model& model;
+  const Surfaces& surfaces;
+};
+
+enum class OutcomeKind : std::uint8_t { view, silhouette, volume };
+
 /// A picture of a run folder.
 struct OutcomePicture {
-  std::string title;
+  OutcomeKind kind = OutcomeKind::view;
+  std::string caption;
   Picture picture;
-  std::vector<LegendRow> legend;
+  std::vector<LegendRow> legend;  // views have none
 };
 
-/// How large, in pixels across, and how fine the volume's view is.
+/// How large, in pixels across, and how fine.
 struct OutcomeLook {
-  std::uint32_t silhouette = kOverlayAcross, volume = 1400, samples = 2;
+  std::array<std::uint32_t, 2> view = {1200, 900};
+  int view_samples = RenderSettings().samples;
+  std::uint32_t silhouette = kOverlayAcross, volume = 1400, volume_samples = 2;
 };
 
-/// "silhouette.png", or of several "silhouette-01.png"; `index` from 0.
-std::string silhouette_overlay_name(const Setup& setup, std::size_t index);
 inline constexpr const char* kVolumeOverlayName = "volume.png";
 
-/// Names of all that a scene's targets give, in the order of the scene.
+/// Names of all that a scene's targets give, in the order of the scene: "view.png" and "silhouette.png", or of several
+/// silhouettes "view-01.png" and so on; "volume.png".
 std::vector<std::string> outcome_names(const Setup& setup);
 
-/// `name` is one of outcome_names(); `model` was expanded for setup.objective.view() or more.
-OutcomePicture draw_outcome(const Setup& setup, const Model& model, const std::string& name, const OutcomeLook& look,
+/// `name` is one of outcome_names().
+OutcomePicture draw_outcome(const Outcome& outcome, const std::string& name, const OutcomeLook& look,
                             Executor& executor);
 
-/// The picture with its title and legend, as it is written to a file.
-Picture with_words(const OutcomePicture& outcome);
+/// The picture as it is written to a file: overlays with their caption and legend.
+Picture with_words(const OutcomePicture& drawn);
 
 }  // namespace espalier

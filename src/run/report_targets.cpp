@@ -43,16 +43,17 @@ ReportPicture silhouette_picture(const SilhouetteTarget& target) {
 
 }  // namespace
 
-std::vector<ReportPicture> outcome_pictures(const Setup& setup, const Model& model, const OutcomeLook& look,
-                                            Executor& executor) {
+ReportPicture report_picture(const OutcomePicture& drawn) {
+  const Picture& p = drawn.picture;
+  return {drawn.kind == OutcomeKind::view ? "As the target sees it" : "Hit and missed", drawn.caption,
+          encode_png(p.width, p.height, p.rgb, "Title", "espalier: outcome"), drawn.legend,
+          drawn.kind == OutcomeKind::volume};
+}
+
+std::vector<ReportPicture> outcome_pictures(const Outcome& outcome, const OutcomeLook& look, Executor& executor) {
   std::vector<ReportPicture> pictures;
-  for (const std::string& name : outcome_names(setup)) {
-    const OutcomePicture drawn = draw_outcome(setup, model, name, look, executor);
-    pictures.push_back({"Overlay", drawn.title,
-                        encode_png(drawn.picture.width, drawn.picture.height, drawn.picture.rgb, "Title",
-                                   "espalier: overlay"),
-                        drawn.legend, name == kVolumeOverlayName});
-  }
+  for (const std::string& name : outcome_names(outcome.setup))
+    pictures.push_back(report_picture(draw_outcome(outcome, name, look, executor)));
   return pictures;
 }
 

@@ -23,8 +23,8 @@ struct ReportPicture {
 /// `look` says how large a picture may be, and how good.
 std::vector<ReportPicture> target_pictures(const Setup& setup, const RenderSettings& look, Executor& executor);
 
-/// How a model does with them; a picture per name of outcome_names().
-std::vector<ReportPicture> outcome_pictures(const Setup& setup, const Model& model, const OutcomeLook& look,
-                                            Executor& executor);
+ReportPicture report_picture(const OutcomePicture& drawn);
+/// How a model does with its targets; a picture per name of outcome_names().
+std::vector<ReportPicture> outcome_pictures(const Outcome& outcome, const OutcomeLook& look, Executor& executor);
 
 }  // namespace espalier

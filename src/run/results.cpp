@@ -8,7 +8,6 @@
 #include "base/version.h"
 #include "io/file.h"
 #include "io/image.h"
-#include "run/outcome_pictures.h"
 #include "run/scene_toml.h"
 
 namespace espalier {
@@ -101,9 +100,18 @@ void ResultWriter::write_individual(std::size_t index, const std::string& path, 
   files_.write(individual(index).derivation, path, provenance);
 }
 
+const OutcomePicture& ResultWriter::outcome(const std::string& name) {
+  const auto found = outcomes_.find(name);
+  if (found != outcomes_.end()) return found->second;
+  const Model& model = files_.model_of(result_.best.derivation);
+  const Surfaces surfaces = files_.surfaces();
+  OutcomeLook look;
+  look.view = setup_.scene.output.picture;
+  return outcomes_[name] = draw_outcome({setup_, model, surfaces}, name, look, executor_);
+}
+
 void ResultWriter::write_outcome(const std::string& name, const std::string& path) {
-  const Picture picture =
-      with_words(draw_outcome(setup_, files_.model_of(result_.best.derivation), name, {}, executor_));
+  const Picture picture = with_words(outcome(name));
   write_png(path, picture.width, picture.height, picture.rgb, provenance(0, "."));
 }
 

@@ -13,7 +13,7 @@ namespace espalier {
 namespace {
 
 // A page is opened as a whole: pictures larger than a screen shows, or very many, are made smaller.
-constexpr std::uint32_t kMostAcross = 1600, kOverlayInPage = 720, kVolumeInPage = 1100, kAlternativeAcross = 800, kManyAcross = 400;
+constexpr std::uint32_t kMostAcross = 1600, kAlternativeAcross = 800, kManyAcross = 400;
 constexpr std::size_t kMany = 24;
 
 std::string small_png(const Picture& picture, std::uint32_t most, const char* title) {
@@ -39,8 +39,11 @@ void ResultWriter::write_report(const std::string& path) {
                                     genes_in_words(setup_.graph(), result_.best.derivation)),
                 small_png(best_picture(), kMostAcross, "espalier: best")};
   input.targets = target_pictures(setup_, page_look(setup_.scene.output.picture), executor_);
-  const Model& model = files_.model_of(result_.best.derivation);
-  input.outcomes = outcome_pictures(setup_, model, {kOverlayInPage, kVolumeInPage, 2}, executor_);
+  for (const std::string& name : outcome_names(setup_)) {
+    OutcomePicture drawn = outcome(name);
+    drawn.picture = shrunk(drawn.picture, kMostAcross);
+    input.outcomes.push_back(report_picture(drawn));
+  }
   for (std::size_t i = 1; i < size(); ++i) {
     input.alternatives.push_back(small_png(small_picture(i), across, "espalier: alternative"));
   }
