@@ -86,37 +86,52 @@ class BvhBuilder {
     return index;
   }
 
+  /// A plane between two bins.
+  struct Border {
+    int axis = 0, bin = 0;  // the first bin of the second part; 0: none parts the items
+    float cost = 0;         // area * count, of both parts
+  };
+
+  static int bin_of(float centre, float low, float scale) {
+    return std::clamp(static_cast<int>((centre - low) * scale), 0, kBins - 1);
+  }
+
   /// Reorders the range and gives where its second part begins.
   std::uint32_t split(const Range& r, int depth) {
     const std::uint32_t half = r.begin + r.size() / 2;
     const Vec3 extent = r.centres.size();
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-    if (!(extent[axis] > 0)) return half;
-    const float low = r.centres.min[axis], scale = kBins / extent[axis];
-    const auto bin_of = [&](std::uint32_t item) {
-      return std::clamp(static_cast<int>((items_[item].centre()[axis] - low) * scale), 0, kBins - 1);
-    };
+    const int longest = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    if (!(extent[longest] > 0)) return half;
+    Border best;
+    for (int axis = 0; axis < 3 && depth < kMostSahDepth; ++axis) {
+      const Border border = best_border(r, axis);
+      if (border.bin > 0 && (best.bin == 0 || border.cost < best.cost)) best = border;
+    }
     const auto begin = order_.begin() + r.begin, end = order_.begin() + r.end;
-    const int border = depth < kMostSahDepth && scale < 1e30f ? best_border(r, bin_of) : 0;
-    if (border == 0) {
+    if (best.bin == 0) {
       std::nth_element(begin, order_.begin() + half, end, [&](std::uint32_t a, std::uint32_t b) {
-        const float ca = items_[a].centre()[axis], cb = items_[b].centre()[axis];
+        const float ca = items_[a].centre()[longest], cb = items_[b].centre()[longest];
         return ca != cb ? ca < cb : a < b;
       });
       return half;
     }
-    const auto middle = std::stable_partition(begin, end, [&](std::uint32_t item) { return bin_of(item) < border; });
+    const float low = r.centres.min[best.axis], scale = kBins / extent[best.axis];
+    const auto middle = std::stable_partition(begin, end, [&](std::uint32_t item) {
+      return bin_of(items_[item].centre()[best.axis], low, scale) < best.bin;
+    });
     return static_cast<std::uint32_t>(middle - order_.begin());
   }
 
-  /// The first bin of the second part for the least area * count; 0 if no border parts the items.
-  template <typename BinOf>
-  int best_border(const Range& r, const BinOf& bin_of) const {
+  Border best_border(const Range& r, int axis) const {
+    const float low = r.centres.min[axis], scale = kBins / r.centres.size()[axis];
+    Border best{axis, 0, 0};
+    if (!(scale < 1e30f)) return best;
     Bounds boxes[kBins];
     std::uint32_t counts[kBins] = {};
     for (std::uint32_t i = r.begin; i < r.end; ++i) {
-      const int bin = bin_of(order_[i]);
-      boxes[bin].add(items_[order_[i]]);
+      const Bounds& item = items_[order_[i]];
+      const int bin = bin_of(item.centre()[axis], low, scale);
+      boxes[bin].add(item);
       ++counts[bin];
     }
     float right_cost[kBins] = {};
@@ -129,14 +144,12 @@ class BvhBuilder {
     }
     Bounds left;
     std::uint32_t left_count = 0;
-    float least = 0;
-    int best = 0;
     for (int b = 1; b < kBins; ++b) {
       left.add(boxes[b - 1]);
       left_count += counts[b - 1];
       if (left_count == 0 || left_count == r.size()) continue;
       const float cost = half_area(left) * static_cast<float>(left_count) + right_cost[b];
-      if (best == 0 || cost < least) best = b, least = cost;
+      if (best.bin == 0 || cost < best.cost) best.bin = b, best.cost = cost;
     }
     return best;
   }

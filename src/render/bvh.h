@@ -40,7 +40,7 @@ class Bvh {
   }
 
  private:
-  struct alignas(16) Node {
+  struct alignas(64) Node {
     float side[6][4];        // low x, high x, low y, ..; what holds nothing lies beyond everything
     std::uint32_t child[4];  // node index; leaf index with kLeafBit; kNone
   };
@@ -61,13 +61,15 @@ template <bool kOrdered, typename Visit>
 bool Bvh::walk(const Ray& ray, const float& far, Visit&& visit) const {
   if (nodes_.empty()) return false;
   const Float4 origin[3] = {Float4(ray.origin.x), Float4(ray.origin.y), Float4(ray.origin.z)};
-  Float4 inverse[3] = {Float4(0), Float4(0), Float4(0)};
+  alignas(16) float scales[4] = {1, 1, 1, 1};
   int first_side[3];  // the ray comes in through it
   for (int axis = 0; axis < 3; ++axis) {
     const float d = ray.direction[axis];
-    inverse[axis] = Float4(1 / (d > 1e-20f || d < -1e-20f ? d : 1e-20f));  // finite, so that 0 * it is 0
+    scales[axis] = d > 1e-20f || d < -1e-20f ? d : 1e-20f;  // its inverse is finite, so that 0 * it is 0
     first_side[axis] = 2 * axis + (d < -1e-20f ? 1 : 0);
   }
+  (Float4(1) / Float4::load(scales)).store(scales);
+  const Float4 inverse[3] = {Float4(scales[0]), Float4(scales[1]), Float4(scales[2])};
   struct Entry {
     std::uint32_t child;
     float near;

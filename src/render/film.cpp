@@ -69,16 +69,19 @@ Pixel develop_mixed(const View& view, std::span<const Sample> samples) {
   return p;
 }
 
-Film::Film(std::uint32_t width, std::uint32_t height)
+Film::Film(std::uint32_t width, std::uint32_t height, bool ghosts)
     : width_(width),
       height_(height),
       stride_((width + 2 * kBorder + 3) / 4 * 4),
-      pixels_(std::size_t{width} * height) {
+      rests_(std::size_t{width} * height),
+      veils_(ghosts ? rests_.size() : 0) {
   for (std::vector<float>& plane : planes_) plane.resize(stride_ * (height + 2 * kBorder) + 8);  // vectors may reach beyond the last
 }
 
 void Film::put(std::uint32_t x, std::uint32_t y, const Pixel& pixel) {
-  pixels_[x + std::size_t{width_} * y] = pixel;
+  const std::size_t i = x + std::size_t{width_} * y;
+  rests_[i] = {pixel.albedo, pixel.extra, pixel.alpha, pixel.seen, pixel.clear < 0};
+  if (!veils_.empty()) veils_[i] = {pixel.veil, pixel.clear, pixel.ghost_normal};
   const std::size_t p = place(x, y);
   for (int c = 0; c < 3; ++c) {
     planes_[kNormal + c][p] = pixel.normal[c];
@@ -135,38 +138,39 @@ void Film::smooth_light(std::uint32_t step, Executor& executor) {
 float Film::ghost_change(std::uint32_t x, std::uint32_t y) const {
   const std::uint32_t x0 = x > 0 ? x - 1 : x, x1 = x + 1 < width_ ? x + 1 : x;
   const std::uint32_t y0 = y > 0 ? y - 1 : y, y1 = y + 1 < height_ ? y + 1 : y;
-  const Vec3 across = at(x1, y).ghost_normal - at(x0, y).ghost_normal;
-  const Vec3 down = at(x, y1).ghost_normal - at(x, y0).ghost_normal;
+  const auto normal = [&](std::uint32_t px, std::uint32_t py) { return veils_[px + std::size_t{width_} * py].normal; };
+  const Vec3 across = normal(x1, y) - normal(x0, y), down = normal(x, y1) - normal(x, y0);
   return std::sqrt(glm::dot(across, across) + glm::dot(down, down));
 }
 
 void Film::develop_pixel(const View& view, std::uint32_t x, std::uint32_t y, Picture& picture) const {
-  const Pixel& p = at(x, y);
-  const std::size_t plane = place(x, y), place = x + std::size_t{width_} * y;
+  const std::size_t plane = place(x, y), i = x + std::size_t{width_} * y;
+  const Rest& p = rests_[i];
   Vec3 colour = p.extra;
   float alpha = p.alpha;
-  if (p.clear >= 0) {
+  if (!p.developed) {
     const Vec3 light(planes_[kLight][plane], planes_[kLight + 1][plane], planes_[kLight + 2][plane]);
     const Vec3 base = p.albedo * light + p.extra;
-    colour = p.veil + p.clear * (p.seen == Seen::model ? tone(base) : base);
+    colour = p.seen == Seen::model ? tone(base) : base;
     if (view.stage.clear && p.seen == Seen::ground) alpha = shadow_alpha(light);
-    alpha = 1 - p.clear * (1 - alpha);
   }
-  if (!view.set.ghosts.empty()) {
+  if (!veils_.empty()) {
+    const Veil& veil = veils_[i];
+    if (!p.developed) colour = veil.colour + veil.clear * colour, alpha = 1 - veil.clear * (1 - alpha);
     const float change = ghost_change(x, y);
     alpha = std::max(alpha, ghost_edge(Vec3(0), Vec3(1), change).x);
     colour = ghost_edge(colour, kGhostEdge, change);
   }
   if (view.stage.clear) {
-    picture.alpha[place] = static_cast<std::uint8_t>(255 * std::clamp(alpha, 0.0f, 1.0f) + 0.5f);
-    colour = picture.alpha[place] > 0 ? colour / alpha : Vec3(0);
+    picture.alpha[i] = static_cast<std::uint8_t>(255 * std::clamp(alpha, 0.0f, 1.0f) + 0.5f);
+    colour = picture.alpha[i] > 0 ? colour / alpha : Vec3(0);
   }
-  for (int c = 0; c < 3; ++c) picture.rgb[3 * place + static_cast<std::size_t>(c)] = developed(colour[c]);
+  for (int c = 0; c < 3; ++c) picture.rgb[3 * i + static_cast<std::size_t>(c)] = developed(colour[c]);
 }
 
 Picture Film::develop(const View& view, Executor& executor) const {
-  Picture picture{width_, height_, std::vector<std::uint8_t>(3 * pixels_.size()), {}};
-  if (view.stage.clear) picture.alpha.resize(pixels_.size());
+  Picture picture{width_, height_, std::vector<std::uint8_t>(3 * rests_.size()), {}};
+  if (view.stage.clear) picture.alpha.resize(rests_.size());
   executor.for_each(height_, [&](std::size_t row, int) {
     for (std::uint32_t x = 0; x < width_; ++x) develop_pixel(view, x, static_cast<std::uint32_t>(row), picture);
   });

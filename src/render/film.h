@@ -31,7 +31,7 @@ Pixel develop_mixed(const View& view, std::span<const Sample> samples);
 
 class Film {
  public:
-  Film(std::uint32_t width, std::uint32_t height);
+  Film(std::uint32_t width, std::uint32_t height, bool ghosts);
 
   /// Pixels may be put from several threads.
   void put(std::uint32_t x, std::uint32_t y, const Pixel& pixel);
@@ -50,11 +50,24 @@ class Film {
   void smooth_four(std::size_t at, std::ptrdiff_t step, float* const (&out)[3]) const;
   void develop_pixel(const View& view, std::uint32_t x, std::uint32_t y, Picture& picture) const;
   float ghost_change(std::uint32_t x, std::uint32_t y) const;
-  const Pixel& at(std::uint32_t x, std::uint32_t y) const { return pixels_[x + std::size_t{width_} * y]; }
+  /// What is left of a pixel once its planes are taken out.
+  struct Rest {
+    Vec3 albedo, extra;
+    float alpha;
+    Seen seen;
+    bool developed;
+  };
+  /// Only where there are ghosts.
+  struct Veil {
+    Vec3 colour{0};
+    float clear = 1;
+    Vec3 normal{0};
+  };
 
   std::uint32_t width_, height_;
   std::size_t stride_;
-  std::vector<Pixel> pixels_;
+  std::vector<Rest> rests_;
+  std::vector<Veil> veils_;  // empty: there are no ghosts
   std::vector<float> planes_[kPlanes];  // what is smoothed, and by what: component by component, with a border
 };
 

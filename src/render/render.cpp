@@ -19,6 +19,16 @@ constexpr std::uint32_t kMostSamples = 256;
 constexpr float kAlike = 0.95f;        // cosine of normals that may share their light
 constexpr std::uint32_t kTile = 16;    // pixels; tiles are handed to threads
 
+void add(const Light& one, Light& sum) {
+  sum.diffuse += one.diffuse, sum.mirrored += one.mirrored;
+  sum.key += one.key, sum.open += one.open;
+}
+
+Light mean(const Light& sum, std::uint32_t count) {
+  const float share = 1 / static_cast<float>(count);
+  return {share * sum.diffuse, share * sum.mirrored, share * sum.key, share * sum.open};
+}
+
 /// Traces pixels one by one; every worker has its own.
 class PixelTracer {
  public:
@@ -27,10 +37,12 @@ class PixelTracer {
         all_(std::clamp<std::uint32_t>(static_cast<std::uint32_t>(std::max(samples, 1)), 1, kMostSamples)),
         few_(std::min(all_, std::max(2u, all_ / 4))) {}
 
-  /// The first samples of a pixel tell whether it sees one surface; only where it does not, the others follow.
+  /// The first samples of a pixel tell whether it sees one surface; only where it does not, the others follow. Where
+  /// there is only the stage, the first tells.
   Pixel trace(std::uint32_t x, std::uint32_t y, bool may_hit) {
     const PixelSamples places(x, y);
     samples_.clear();
+    if (!may_hit) return trace_stage(places, x, y);
     look(places, x, y, few_, may_hit);
     const bool plain = is_plain(samples_);
     if (!plain) look(places, x, y, all_, may_hit);
@@ -46,19 +58,38 @@ class PixelTracer {
     Light light;
   };
 
+  Pixel trace_stage(const PixelSamples& places, std::uint32_t x, std::uint32_t y) {
+    look(places, x, y, 1, false);
+    Sample& sample = samples_[0];
+    if (sample.seen != Seen::backdrop) {
+      Light light;
+      std::uint32_t count = 0;
+      const auto take = [&](std::uint32_t end) {
+        for (; count < end; ++count) add(gather(view_, sample, places.number(count)), light);
+      };
+      take((few_ + 1) / 2);
+      // Far from all shadows half of the samples are enough.
+      const float open = static_cast<float>(count);
+      if (light.key < open || light.open < open) take(few_);
+      lit(view_, mean(light, count), sample);
+    }
+    return develop_plain(samples_);
+  }
+
   void look(const PixelSamples& places, std::uint32_t x, std::uint32_t y, std::uint32_t end, bool may_hit) {
     for (auto s = static_cast<std::uint32_t>(samples_.size()); s < end; ++s) {
       const Vec2 in_pixel = places.in_pixel(s);
       const Vec2 point =
           view_.picture_point(static_cast<float>(x) + in_pixel.x, static_cast<float>(y) + in_pixel.y);
-      samples_.push_back(see(view_, point, may_hit, places.number(s)));
+      see(view_, point, may_hit, places.number(s), samples_.emplace_back());
     }
   }
 
-  /// Light is gathered for the first samples of every surface, and shared with the others.
+  /// Light is gathered for the first samples of every surface, the fewer the more there are, and shared with the others.
   void light(const PixelSamples& places) {
     groups_.clear();
     group_of_.assign(samples_.size(), 0);
+    std::uint32_t gathered = 0;
     for (std::uint32_t s = 0; s < samples_.size(); ++s) {
       const Sample& sample = samples_[s];
       if (sample.layered || sample.seen == Seen::backdrop) continue;
@@ -68,17 +99,11 @@ class PixelTracer {
       if (g == groups_.size()) groups_.push_back({sample.surface, 0, sample.normal, {}});
       group_of_[s] = g;
       Group& group = groups_[g];
-      if (group.count >= few_) continue;
-      const Light one = gather(view_, sample, places.number(s));
-      group.light.diffuse += one.diffuse, group.light.mirrored += one.mirrored;
-      group.light.key += one.key, group.light.open += one.open;
-      ++group.count;
+      if (group.count >= few_ || (group.count > 0 && gathered >= 2 * few_)) continue;
+      add(gather(view_, sample, places.number(s)), group.light);
+      ++group.count, ++gathered;
     }
-    for (Group& group : groups_) {
-      const float share = 1 / static_cast<float>(group.count);
-      group.light.diffuse *= share, group.light.mirrored *= share;
-      group.light.key *= share, group.light.open *= share;
-    }
+    for (Group& group : groups_) group.light = mean(group.light, group.count);
     for (std::size_t s = 0; s < samples_.size(); ++s) {
       Sample& sample = samples_[s];
       if (!sample.layered && sample.seen != Seen::backdrop) lit(view_, groups_[group_of_[s]].light, sample);
@@ -95,7 +120,7 @@ class PixelTracer {
 Picture picture_of(const View& view, int samples, Executor& executor) {
   Coverage coverage(view.camera, view.width, view.height);
   for (const Tracer* tracer : {&view.set.opaque, &view.set.translucent, &view.set.ghosts}) coverage.add(*tracer);
-  Film film(view.width, view.height);
+  Film film(view.width, view.height, !view.set.ghosts.empty());
   std::vector<PixelTracer> tracers(static_cast<std::size_t>(executor.workers()), PixelTracer(view, samples));
   const std::uint32_t columns = (view.width + kTile - 1) / kTile, rows = (view.height + kTile - 1) / kTile;
   executor.for_each(std::size_t{columns} * rows, [&](std::size_t tile, int worker) {

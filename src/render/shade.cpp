@@ -140,8 +140,7 @@ void add_layers(const View& view, const Ray& ray, float far, std::uint32_t numbe
 
 }  // namespace
 
-Sample see(const View& view, const Vec2& picture, bool may_hit, std::uint32_t number) {
-  Sample sample;
+void see(const View& view, const Vec2& picture, bool may_hit, std::uint32_t number, Sample& sample) {
   const Set& set = view.set;
   const Ray ray = view.camera.ray(picture.x, picture.y);
   const Tracer::Hit hit = may_hit ? set.opaque.intersect(ray) : Tracer::Hit{};
@@ -154,7 +153,6 @@ Sample see(const View& view, const Vec2& picture, bool may_hit, std::uint32_t nu
   }
   if (may_hit && !set.translucent.empty()) add_layers(view, ray, far, number, sample);
   if (may_hit && !set.ghosts.empty()) add_ghosts(set.ghosts, ray, far, sample);
-  return sample;
 }
 
 Light gather(const View& view, const Sample& sample, std::uint32_t number) {

@@ -49,9 +49,9 @@ struct Sample {
   float metal = 0, roughness = 1, glow = 0;
 };
 
-/// What a ray through the picture point sees, not lit yet. `may_hit`: else the ray is known to pass the model and the
-/// ghosts. `number`: of the sample, for its light if it is layered.
-Sample see(const View& view, const Vec2& picture, bool may_hit, std::uint32_t number);
+/// What a ray through the picture point sees, not lit yet, into a fresh `out`. `may_hit`: else the ray is known to pass the
+/// model and the ghosts. `number`: of the sample, for its light if it is layered.
+void see(const View& view, const Vec2& picture, bool may_hit, std::uint32_t number, Sample& out);
 
 /// One sample of the light that arrives at what was seen.
 Light gather(const View& view, const Sample& sample, std::uint32_t number);

@@ -79,37 +79,60 @@ unsigned TriangleSet::intersect_block(const Block& block, const Ray& ray, float 
   return mask;
 }
 
+bool TriangleSet::intersect_leaf(std::uint32_t leaf, const Ray& ray, Hit& hit, const Cutout* cutout) const {
+  alignas(16) float t[4], u[4], v[4];
+  const unsigned mask = intersect_block(blocks_[leaf], ray, hit.t, t, u, v);
+  bool found = false;
+  for (int k = 0; mask >> k; ++k) {
+    if (!(mask >> k & 1) || !(t[k] < hit.t)) continue;
+    if (cutout && !cutout->shows(uv(bvh_.leaves()[leaf][k], u[k], v[k]))) continue;
+    hit = {t[k], u[k], v[k], bvh_.leaves()[leaf][k]}, found = true;
+  }
+  return found;
+}
+
+bool TriangleSet::leaf_blocks(std::uint32_t leaf, const Ray& ray, float far, const Cutout* cutout) const {
+  alignas(16) float t[4], u[4], v[4];
+  const unsigned mask = intersect_block(blocks_[leaf], ray, far, t, u, v);
+  if (!cutout) return mask != 0;
+  for (int k = 0; mask >> k; ++k) {
+    if ((mask >> k & 1) && cutout->shows(uv(bvh_.leaves()[leaf][k], u[k], v[k]))) return true;
+  }
+  return false;
+}
+
 bool TriangleSet::intersect(const Ray& ray, Hit& hit, const Cutout* cutout) const {
   bool found = false;
+  if (blocks_.size() <= kFewBlocks) {
+    for (std::uint32_t leaf = 0; leaf < blocks_.size(); ++leaf) found |= intersect_leaf(leaf, ray, hit, cutout);
+    return found;
+  }
   bvh_.traverse(ray, hit.t, [&](std::uint32_t leaf) {
-    alignas(16) float t[4], u[4], v[4];
-    const unsigned mask = intersect_block(blocks_[leaf], ray, hit.t, t, u, v);
-    for (int k = 0; mask >> k; ++k) {
-      if (!(mask >> k & 1) || !(t[k] < hit.t)) continue;
-      if (cutout && !cutout->shows(uv(bvh_.leaves()[leaf][k], u[k], v[k]))) continue;
-      hit = {t[k], u[k], v[k], bvh_.leaves()[leaf][k]}, found = true;
-    }
+    found |= intersect_leaf(leaf, ray, hit, cutout);
     return false;
   });
   return found;
 }
 
 bool TriangleSet::blocks(const Ray& ray, float far, const Cutout* cutout) const {
-  return bvh_.traverse_unordered(ray, far, [&](std::uint32_t leaf) {
-    alignas(16) float t[4], u[4], v[4];
-    const unsigned mask = intersect_block(blocks_[leaf], ray, far, t, u, v);
-    if (!cutout) return mask != 0;
-    for (int k = 0; mask >> k; ++k) {
-      if ((mask >> k & 1) && cutout->shows(uv(bvh_.leaves()[leaf][k], u[k], v[k]))) return true;
+  if (blocks_.size() <= kFewBlocks) {
+    for (std::uint32_t leaf = 0; leaf < blocks_.size(); ++leaf) {
+      if (leaf_blocks(leaf, ray, far, cutout)) return true;
     }
     return false;
-  });
+  }
+  return bvh_.traverse_unordered(ray, far, [&](std::uint32_t leaf) { return leaf_blocks(leaf, ray, far, cutout); });
 }
 
 Tracer::Tracer(std::vector<Placed> parts) : parts_(std::move(parts)) {
   std::vector<Bounds> boxes;
   for (const Placed& part : parts_) boxes.push_back(moved(part.shape->box(), part.world_from_shape));
   bvh_ = Bvh(boxes, 1);
+  entries_.reserve(parts_.size());
+  for (const Bvh::Leaf& leaf : bvh_.leaves()) {
+    const Placed& part = parts_[leaf[0]];
+    entries_.push_back({part.shape_from_world, part.shape, leaf[0], part.cutout != nullptr});
+  }
 }
 
 Tracer::Hit Tracer::intersect(const Ray& ray, float far) const {
@@ -117,12 +140,11 @@ Tracer::Hit Tracer::intersect(const Ray& ray, float far) const {
   best.t = far;
   float limit = far;  // hits just behind the best may still win the tie
   bvh_.traverse(ray, limit, [&](std::uint32_t leaf) {
-    const std::uint32_t index = bvh_.leaves()[leaf][0];
-    const Placed& part = parts_[index];
-    const Ray local{part.shape_from_world.point(ray.origin), part.shape_from_world.vector(ray.direction), ray.near};
+    const Entry& entry = entries_[leaf];
+    const std::uint32_t index = entry.part;
     TriangleSet::Hit hit;
     hit.t = limit;
-    if (!part.shape->intersect(local, hit, part.cutout)) return false;
+    if (!entry.shape->intersect(entry.local(ray), hit, cutout(entry))) return false;
     const bool wins = !best || hit.t < best.t - kTie || (hit.t <= best.t + kTie && index < best.part);
     if (wins) {
       best = {hit.t, hit.u, hit.v, index, hit.triangle};
@@ -135,9 +157,8 @@ Tracer::Hit Tracer::intersect(const Ray& ray, float far) const {
 
 bool Tracer::blocks(const Ray& ray, float far) const {
   return bvh_.traverse_unordered(ray, far, [&](std::uint32_t leaf) {
-    const Placed& part = parts_[bvh_.leaves()[leaf][0]];
-    return part.shape->blocks({part.shape_from_world.point(ray.origin), part.shape_from_world.vector(ray.direction),
-                               ray.near}, far, part.cutout);
+    const Entry& entry = entries_[leaf];
+    return entry.shape->blocks(entry.local(ray), far, cutout(entry));
   });
 }
 

@@ -43,6 +43,11 @@ class TriangleSet {
   /// Bits of the triangles that are hit; t, u and v go to arrays of four.
   static unsigned intersect_block(const Block& block, const Ray& ray, float far, float* t, float* u, float* v);
 
+  bool intersect_leaf(std::uint32_t leaf, const Ray& ray, Hit& hit, const Cutout* cutout) const;
+  bool leaf_blocks(std::uint32_t leaf, const Ray& ray, float far, const Cutout* cutout) const;
+
+  static constexpr std::size_t kFewBlocks = 2;  // so many are tried one after another
+
   const Mesh* mesh_;
   Bvh bvh_;
   std::vector<Block> blocks_;
@@ -83,7 +88,21 @@ class Tracer {
   Vec2 uv(const Hit& hit, float& share_per_length) const;
 
  private:
+  /// What a ray needs of a part before it hits, in one line of the cache; in the order of the tree's leaves.
+  struct alignas(64) Entry {
+    Frame shape_from_world;
+    const TriangleSet* shape = nullptr;
+    std::uint32_t part = 0;
+    bool cut_out = false;
+
+    Ray local(const Ray& ray) const {
+      return {shape_from_world.point(ray.origin), shape_from_world.vector(ray.direction), ray.near};
+    }
+  };
+  const Cutout* cutout(const Entry& entry) const { return entry.cut_out ? parts_[entry.part].cutout : nullptr; }
+
   std::vector<Placed> parts_;
+  std::vector<Entry> entries_;
   Bvh bvh_;
 };
 
