@@ -54,26 +54,6 @@ void draw_border(Picture& picture, const MarkedPixels& pixels, std::uint32_t fac
   }
 }
 
-Picture reduced(const MarkedPixels& pixels, std::uint32_t factor) {
-  Picture out = blank((pixels.width + factor - 1) / factor, (pixels.height + factor - 1) / factor, kWhite);
-  for (std::uint32_t y = 0; y < out.height; ++y) {
-    for (std::uint32_t x = 0; x < out.width; ++x) {
-      std::uint32_t sum[3] = {0, 0, 0}, count = 0;
-      for (std::uint32_t v = y * factor; v < std::min((y + 1) * factor, pixels.height); ++v) {
-        for (std::uint32_t u = x * factor; u < std::min((x + 1) * factor, pixels.width); ++u, ++count) {
-          const std::size_t at = u + std::size_t{v} * pixels.width;
-          const Colour colour = colour_at(pixels.marks[at], pixels.degrees[at], x, y);
-          for (int c = 0; c < 3; ++c) sum[c] += colour.rgb[c];
-        }
-      }
-      Colour mean{};
-      for (int c = 0; c < 3; ++c) mean.rgb[c] = static_cast<std::uint8_t>((sum[c] + count / 2) / count);
-      set_pixel(out, x, y, mean);
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 Colour colour_of(Mark mark) {
@@ -95,11 +75,36 @@ Picture draw_marks(const MarkedPixels& pixels, std::uint32_t across) {
   CHECK(pixels.marks.size() == std::size_t{pixels.width} * pixels.height);
   CHECK(pixels.degrees.size() == pixels.marks.size());
   const std::uint32_t longer = std::max(pixels.width, pixels.height);
-  if (longer > across) return reduced(pixels, (longer + across - 1) / across);
+  if (longer > across) return fit_marks(pixels, across);
   const std::uint32_t factor = across / longer;
   Picture picture = enlarged(pixels, factor);
   if (factor >= kBorderFrom) draw_border(picture, pixels, factor);
   return picture;
+}
+
+Picture fit_marks(const MarkedPixels& pixels, std::uint32_t across) {
+  const std::uint64_t longer = std::max(pixels.width, pixels.height);
+  const std::uint64_t samples = std::clamp<std::uint64_t>((2 * longer + across - 1) / across, 3, 16);  // along a side
+  const auto side = [&](std::uint64_t of) {
+    return static_cast<std::uint32_t>(std::max<std::uint64_t>(1, of * across / longer));
+  };
+  Picture out = blank(side(pixels.width), side(pixels.height), kWhite);
+  for (std::uint32_t y = 0; y < out.height; ++y) {
+    for (std::uint32_t x = 0; x < out.width; ++x) {
+      std::uint64_t sum[3] = {0, 0, 0};
+      for (std::uint64_t k = 0; k < samples * samples; ++k) {
+        const std::uint64_t u = (2 * (x * samples + k % samples) + 1) * pixels.width / (2 * samples * out.width);
+        const std::uint64_t v = (2 * (y * samples + k / samples) + 1) * pixels.height / (2 * samples * out.height);
+        const Colour colour = colour_at(pixels.marks[u + v * pixels.width], pixels.degrees[u + v * pixels.width], x, y);
+        for (int c = 0; c < 3; ++c) sum[c] += colour.rgb[c];
+      }
+      Colour mean{};
+      const std::uint64_t count = samples * samples;
+      for (int c = 0; c < 3; ++c) mean.rgb[c] = static_cast<std::uint8_t>((sum[c] + count / 2) / count);
+      set_pixel(out, x, y, mean);
+    }
+  }
+  return out;
 }
 
 Picture with_legend(const Picture& picture, const std::string& title, const std::vector<LegendRow>& rows) {

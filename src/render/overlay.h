@@ -34,8 +34,10 @@ Colour colour_of(Mark mark);
 inline constexpr std::uint32_t kOverlayAcross = 1024;
 
 /// Enlarged by the largest whole factor with which the longer side has at most `across` pixels; then a line shows the
-/// border of what is wanted. Larger ones are made smaller by the least whole factor, as means of bytes.
+/// border of what is wanted. Larger ones are fitted.
 Picture draw_marks(const MarkedPixels& pixels, std::uint32_t across = kOverlayAcross);
+/// Larger or smaller, so that the longer side has exactly `across` pixels, each the mean of what it shows.
+Picture fit_marks(const MarkedPixels& pixels, std::uint32_t across);
 
 struct LegendRow {
   std::vector<Colour> swatches;  // side by side; none: text alone

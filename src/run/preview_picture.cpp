@@ -32,12 +32,13 @@ struct Cell {
   std::vector<Line> lines;
 };
 
-/// Broken between words; a longer word is cut.
+/// Broken between words, but not before "%"; a longer word is cut.
 std::vector<std::string> wrapped(const std::string& text, std::size_t letters) {
   std::vector<std::string> lines;
   std::string line;
   for (std::size_t from = 0; from < text.size();) {
-    const std::size_t to = std::min(text.find_first_of(" \n", from), text.size());
+    std::size_t to = std::min(text.find_first_of(" \n", from), text.size());
+    if (text.compare(to, 2, " %") == 0) to = std::min(text.find_first_of(" \n", to + 1), text.size());
     const std::string word = fit_text(std::string_view(text).substr(from, to - from), letters);
     if (!line.empty() && line.size() + 1 + word.size() > letters) lines.push_back(std::move(line)), line.clear();
     line += (line.empty() ? "" : " ") + word;
@@ -61,7 +62,7 @@ Cell drawing_cell(const Preview& preview, std::size_t index) {
   const SilhouetteTarget& target = *preview.setup->silhouettes[index];
   const WeightImage& image = target.settings().image;
   const DrawingCounts counts = count_drawing(image);
-  Cell cell{draw_marks(mark_drawing(image), kCell), {}};
+  Cell cell{fit_marks(mark_drawing(image), kCell), {}};
   add_text(cell, fmt::format("{}, {} x {}", target.name(), image.width, image.height));
   add_legend(cell, colour_of(Mark::wanted), counts.wanted, "wanted");
   add_legend(cell, colour_of(Mark::to_avoid), counts.to_avoid, "to be left free");
@@ -121,7 +122,7 @@ std::vector<Cell> row_of(const Preview& preview, std::size_t place, Executor& ex
     if (is_volume) {
       cell.picture = voxel_view(mark_voxels(*setup.volume, sample.model.instances), kCell, kCell * 3 / 4, 2, executor);
     } else {
-      cell.picture = draw_marks(mark_silhouette(*setup.silhouettes[index], sample.model.instances), kCell);
+      cell.picture = fit_marks(mark_silhouette(*setup.silhouettes[index], sample.model.instances), kCell);
     }
     const Explanation& told = sample.explanation.targets[place];
     add_text(cell, score_in_words(told));
@@ -146,9 +147,7 @@ std::vector<Cell> heads(const Preview& preview) {
 }
 
 std::vector<Line> foot(const Preview& preview, std::size_t rows, std::size_t targets, std::size_t letters) {
-  std::vector<Line> lines = {{{colour_of(Mark::hit)}, "hit", kInk},
-                             {{colour_of(Mark::missed)}, "missed", kInk},
-                             {{colour_of(Mark::spilled)}, "spilled", kInk}};
+  std::vector<Line> lines;
   if (rows < targets) lines.push_back({{}, fmt::format("{} more targets are not shown", targets - rows), kWarn});
   for (const std::string& warning : preview.warnings) {
     for (std::string& line : wrapped("warning: " + warning, letters)) lines.push_back({{}, std::move(line), kWarn});
@@ -179,6 +178,18 @@ void draw_lines(Picture& sheet, std::uint32_t x, std::uint32_t y, const std::vec
   }
 }
 
+/// What the colours of the samples mean, side by side.
+void draw_key(Picture& sheet, std::uint32_t x, std::uint32_t y) {
+  const std::pair<Mark, const char*> kKey[] = {{Mark::hit, "wanted and covered"},
+                                               {Mark::missed, "wanted, not covered"},
+                                               {Mark::spilled, "covered, to be left free"},
+                                               {Mark::covered, "covered, does not matter"}};
+  for (const auto& [mark, what] : kKey) {
+    draw_lines(sheet, x, y, {{{colour_of(mark)}, what, kInk}});
+    x += kCell + kGap;
+  }
+}
+
 void draw_row(Picture& sheet, std::uint32_t top, const std::vector<Cell>& row) {
   std::uint32_t pictures = 0, x = kGap;
   for (const Cell& cell : row) pictures = std::max(pictures, cell.picture.height);
@@ -205,7 +216,7 @@ Picture preview_picture(const Preview& preview, Executor& executor) {
   const std::vector<Line> last =
       foot(preview, rows.size() - 1, targets, (width - 2 * kGap) / (kCellWidth * kScale));
   const std::uint32_t title = kGap + kCellHeight * kTitleScale + kGap / 2;
-  std::uint32_t height = title + static_cast<std::uint32_t>(last.size()) * kLine + kGap;
+  std::uint32_t height = title + kLine + static_cast<std::uint32_t>(last.size()) * kLine + kGap;
   for (const auto& row : rows) height += height_of(row) + kGap;
 
   Picture sheet = blank(width, height, kPaper);
@@ -215,7 +226,8 @@ Picture preview_picture(const Preview& preview, Executor& executor) {
             kInk.rgb);
   std::uint32_t y = title;
   for (const auto& row : rows) draw_row(sheet, y, row), y += height_of(row) + kGap;
-  draw_lines(sheet, kGap, y, last);
+  draw_key(sheet, kGap, y);
+  draw_lines(sheet, kGap, y + kLine, last);
   return sheet;
 }
 
