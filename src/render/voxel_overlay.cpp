@@ -48,9 +48,10 @@ Picture draw_cut(const MarkedVoxels& voxels, const Cut& cut, std::uint32_t plane
 
 /// Ticks at the border where the other two cuts run.
 void draw_ticks(Picture& sheet, std::uint32_t left, std::uint32_t top, std::uint32_t width, std::uint32_t height,
-                const MarkedVoxels& voxels, const Cut& cut, const std::uint32_t (&planes)[3]) {
+                const MarkedVoxels& voxels, const Cut& cut, const std::array<std::uint32_t, 3>& planes) {
   const auto place = [&](int axis, bool flip, std::uint32_t pixels) {
-    const std::uint64_t cells = cells_of(voxels, axis), cell = flip ? cells - 1 - planes[axis] : planes[axis];
+    const std::uint64_t cells = cells_of(voxels, axis), plane = planes[static_cast<std::size_t>(axis)];
+    const std::uint64_t cell = flip ? cells - 1 - plane : plane;
     return static_cast<std::uint32_t>((2 * cell + 1) * pixels / (2 * cells));
   };
   const std::uint32_t x = left + place(cut.u, cut.flip_u, width), y = top + place(cut.v, cut.flip_v, height);
@@ -95,36 +96,44 @@ Colour colour_of(VoxelMark mark, bool twice) {
   return kCutPaper;
 }
 
-std::uint32_t fullest_cut(const MarkedVoxels& voxels, int axis) {
-  std::vector<std::uint64_t> counts(cells_of(voxels, axis));
+std::array<std::uint32_t, 3> fullest_cuts(const MarkedVoxels& voxels) {
+  std::vector<std::uint64_t> counts[3];
+  for (int axis = 0; axis < 3; ++axis) counts[axis].resize(cells_of(voxels, axis));
   std::size_t i = 0;
-  std::uint32_t at[3];
-  for (at[2] = 0; at[2] < voxels.cells[2]; ++at[2]) {
-    for (at[1] = 0; at[1] < voxels.cells[1]; ++at[1]) {
-      for (at[0] = 0; at[0] < voxels.cells[0]; ++at[0], ++i) {
+  for (std::uint32_t z = 0; z < voxels.cells[2]; ++z) {
+    for (std::uint32_t y = 0; y < voxels.cells[1]; ++y) {
+      std::uint64_t row = 0;
+      for (std::uint32_t x = 0; x < voxels.cells[0]; ++x, ++i) {
         const VoxelMark mark = voxels.mark(i);
-        counts[at[axis]] += mark != VoxelMark::free && mark != VoxelMark::avoided;
+        if (mark == VoxelMark::free || mark == VoxelMark::avoided) continue;
+        ++counts[0][x], ++row;
       }
+      counts[1][y] += row, counts[2][z] += row;
     }
   }
-  return static_cast<std::uint32_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+  std::array<std::uint32_t, 3> cuts;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    cuts[axis] = static_cast<std::uint32_t>(std::max_element(counts[axis].begin(), counts[axis].end()) -
+                                            counts[axis].begin());
+  return cuts;
 }
 
 Picture draw_voxels(const MarkedVoxels& voxels, std::uint32_t across, std::uint32_t samples, Executor& executor) {
   CHECK(voxels.voxels.size() == std::size_t{voxels.cells[0]} * voxels.cells[1] * voxels.cells[2]);
   const Layout l = lay_out(voxels, across);
-  const std::uint32_t planes[3] = {fullest_cut(voxels, 0), fullest_cut(voxels, 1), fullest_cut(voxels, 2)};
+  const std::array<std::uint32_t, 3> planes = fullest_cuts(voxels);
   const std::uint32_t top_of_all = l.gap / 2 + l.label;
   Picture sheet = blank(l.view_width + l.x + l.z + 3 * l.gap, top_of_all + l.view_height + l.gap, kPaper);
   paste(sheet, voxel_view(voxels, l.view_width, l.view_height, samples, executor), 0, top_of_all);
   draw_text(sheet, l.gap, l.gap / 2, "from the right above", l.scale, kInk.rgb);
   const auto put = [&](const Cut& cut, std::uint32_t left, std::uint32_t top, std::uint32_t width,
                        std::uint32_t height) {
-    paste(sheet, draw_cut(voxels, cut, planes[cut.w], width, height), left, top);
+    const std::uint32_t plane = planes[static_cast<std::size_t>(cut.w)];
+    paste(sheet, draw_cut(voxels, cut, plane, width, height), left, top);
     draw_frame(sheet, left, top, width, height, kCutLine);
     draw_ticks(sheet, left, top, width, height, voxels, cut, planes);
     const Vec3 cell = voxels.max - voxels.min;
-    const float at = voxels.min[cut.w] + (static_cast<float>(planes[cut.w]) + 0.5f) * cell[cut.w] /
+    const float at = voxels.min[cut.w] + (static_cast<float>(plane) + 0.5f) * cell[cut.w] /
                                              static_cast<float>(cells_of(voxels, cut.w));
     const std::string full = fmt::format("{}, cut at {} = {:.3g}", cut.from, "xyz"[cut.w], at);
     const std::size_t cells = (width + l.gap) / (kCellWidth * l.scale);

@@ -44,8 +44,8 @@ inline bool is_covered(VoxelMark mark) {
 /// Darker where covered twice.
 Colour colour_of(VoxelMark mark, bool twice = false);
 
-/// Which plane of cells across an axis holds most that is wanted or covered; the lowest of several.
-std::uint32_t fullest_cut(const MarkedVoxels& voxels, int axis);
+/// Which plane of cells across each axis holds most that is wanted or covered; the lowest of several.
+std::array<std::uint32_t, 3> fullest_cuts(const MarkedVoxels& voxels);
 
 /// The whole from the right above, covered voxels solid and missed ones as a haze; beside it cuts across z (seen from
 /// the front), x (from the right) and y (from above) where most is to be seen. About `across` pixels wide.

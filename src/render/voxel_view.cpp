@@ -28,16 +28,38 @@ struct Seen {
 
 Vec3 as_light(const Colour& c) { return {c.rgb[0], c.rgb[1], c.rgb[2]}; }
 
+/// The box of all that is shown; of the grid where there is nothing.
+Bounds content_of(const MarkedVoxels& voxels) {
+  std::uint32_t low[3] = {~0u, ~0u, ~0u}, high[3] = {0, 0, 0};
+  std::size_t i = 0;
+  for (std::uint32_t z = 0; z < voxels.cells[2]; ++z) {
+    for (std::uint32_t y = 0; y < voxels.cells[1]; ++y) {
+      for (std::uint32_t x = 0; x < voxels.cells[0]; ++x, ++i) {
+        if (voxels.mark(i) == VoxelMark::free) continue;
+        const std::uint32_t at[3] = {x, y, z};
+        for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], at[k]), high[k] = std::max(high[k], at[k] + 1);
+      }
+    }
+  }
+  if (low[0] == ~0u) return {voxels.min, voxels.max};
+  Bounds box;
+  for (int k = 0; k < 3; ++k) {
+    const float cell = (voxels.max[k] - voxels.min[k]) / static_cast<float>(voxels.cells[static_cast<std::size_t>(k)]);
+    box.min[k] = voxels.min[k] + cell * static_cast<float>(low[k]);
+    box.max[k] = voxels.min[k] + cell * static_cast<float>(high[k]);
+  }
+  return box;
+}
+
 class View {
  public:
-  View(const MarkedVoxels& voxels, std::uint32_t width, std::uint32_t height)
+  View(const MarkedVoxels& voxels, const Bounds& shown, std::uint32_t width, std::uint32_t height)
       : voxels_(voxels), width_(width), height_(height) {
     right_ = glm::normalize(glm::cross(Vec3(0, 1, 0), kToViewer));
     up_ = glm::cross(kToViewer, right_);
     const Vec3 size = voxels.max - voxels.min;
     longest_ = std::max({size.x, size.y, size.z});
     for (int i = 0; i < 3; ++i) cell_[i] = size[i] / static_cast<float>(voxels.cells[static_cast<std::size_t>(i)]);
-    const Bounds shown = content();
     centre_ = shown.centre();
     float wide = 0, tall = 0;
     for (int k = 0; k < 8; ++k) {
@@ -61,7 +83,6 @@ class View {
   float longest() const { return longest_; }
 
  private:
-  Bounds content() const;
   bool enter(const Vec3& origin, float& near, float& far) const;
   Vec3 normal(const int (&at)[3], const Vec3& face) const;
   Vec3 shaded(const Vec3& colour, const Vec3& normal) const {
@@ -73,22 +94,6 @@ class View {
   Vec3 right_, up_, centre_, cell_;
   float longest_, per_pixel_;
 };
-
-/// The box of all that is shown; of the grid where there is nothing.
-Bounds View::content() const {
-  Bounds box;
-  std::size_t i = 0;
-  for (std::uint32_t z = 0; z < voxels_.cells[2]; ++z) {
-    for (std::uint32_t y = 0; y < voxels_.cells[1]; ++y) {
-      for (std::uint32_t x = 0; x < voxels_.cells[0]; ++x, ++i) {
-        if (voxels_.mark(i) == VoxelMark::free) continue;
-        const Vec3 low = voxels_.min + cell_ * Vec3(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
-        box.add(low), box.add(low + cell_);
-      }
-    }
-  }
-  return box.empty() ? Bounds{voxels_.min, voxels_.max} : box;
-}
 
 bool View::enter(const Vec3& origin, float& near, float& far) const {
   near = -1e30f, far = 1e30f;
@@ -197,7 +202,8 @@ void draw_edges(std::vector<Seen>& seen, std::uint32_t width, std::uint32_t heig
 Picture voxel_view(const MarkedVoxels& voxels, std::uint32_t width, std::uint32_t height, std::uint32_t samples,
                    Executor& executor) {
   const std::uint32_t wide = width * samples, tall = height * samples;
-  const View view(voxels, wide, tall);
+  const Bounds shown = content_of(voxels);
+  const View view(voxels, shown, wide, tall);
   std::vector<Seen> seen(std::size_t{wide} * tall);
   executor.for_each(tall, [&](std::size_t row, int) {
     for (std::uint32_t x = 0; x < wide; ++x)
@@ -205,7 +211,7 @@ Picture voxel_view(const MarkedVoxels& voxels, std::uint32_t width, std::uint32_
   });
   draw_edges(seen, wide, tall, kEdgeDepth * view.longest());
   Picture picture = blank(width, height, kPaper);
-  draw_box(picture, View(voxels, width, height));
+  draw_box(picture, View(voxels, shown, width, height));
   const float share = 1 / static_cast<float>(samples * samples);
   executor.for_each(height, [&](std::size_t row, int) {
     for (std::uint32_t x = 0; x < width; ++x) {

@@ -23,7 +23,7 @@ struct PreviewSample {
 
 struct Preview {
   std::unique_ptr<Setup> setup;
-  Reach reach;                         // of all probes
+  ProbeReach reach;                         // of all probes
   std::vector<PreviewSample> samples;  // the first probes
   std::vector<std::string> warnings;   // for people, all that a run of the scene would start with, and some more
 };

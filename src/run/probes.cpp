@@ -44,11 +44,11 @@ Probes grow_probes(const GeneratorGraph& graph, const Scene& scene, bool full) {
   return probes;
 }
 
-Reach find_reach(Setup& setup) {
+ProbeReach find_reach(Setup& setup) {
   const bool full = setup.objective.view() == TargetView::full;
   const Probes probes = setup.probes ? std::move(*setup.probes) : grow_probes(setup.graph(), setup.scene, full);
   setup.probes.reset();
-  Reach reach;
+  ProbeReach reach;
   reach.models = probes.models;
   const auto share = [](std::uint64_t part, std::uint64_t of) {
     return of > 0 ? static_cast<double>(part) / static_cast<double>(of) : 1.0;
@@ -68,7 +68,7 @@ Reach find_reach(Setup& setup) {
   return reach;
 }
 
-std::vector<std::string> warn_of_reach(const Setup& setup, const Reach& reach) {
+std::vector<std::string> warn_of_reach(const Setup& setup, const ProbeReach& reach) {
   std::vector<std::string> warnings;
   const std::string models = counted(reach.models, "model");
   for (std::size_t i = 0; i < setup.silhouettes.size(); ++i) {

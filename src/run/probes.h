@@ -26,16 +26,16 @@ Probes grow_probes(const GeneratorGraph& graph, const Scene& scene, bool full);
 
 /// What share of the wanted voxels of each target mesh, and of the wanted pixels of each silhouette, some probe covers;
 /// 1 where nothing is wanted.
-struct Reach {
+struct ProbeReach {
   std::uint32_t models = 0;
   std::vector<double> meshes, silhouettes;  // in the order of the scene
 };
 
 /// Uses up setup.probes; grows them where there are none.
-Reach find_reach(Setup& setup);
+ProbeReach find_reach(Setup& setup);
 
 /// One line per volume to be filled of which much is covered by none of the probes, and per silhouette of which no
 /// wanted pixel is. Such a target may be misplaced or of another scale than the grammar.
-std::vector<std::string> warn_of_reach(const Setup& setup, const Reach& reach);
+std::vector<std::string> warn_of_reach(const Setup& setup, const ProbeReach& reach);
 
 }  // namespace espalier

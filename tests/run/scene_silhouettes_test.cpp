@@ -12,6 +12,7 @@
 #include "run/fixtures.h"
 #include "run/probes.h"
 #include "run/run.h"
+#include "run/setup.h"
 #include "run/scene_scorer.h"
 #include "run/scene_toml.h"
 
