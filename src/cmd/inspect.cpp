@@ -20,6 +20,7 @@ void print_text(const std::string& file, const Provenance& p) {
   if (p.score && p.optimum) fmt::print(" of at most {:.10g}", *p.optimum);
   if (p.score) fmt::print("\n");
   for (const auto& [name, hash] : p.inputs) fmt::print("input {}  {}\n", hash, name);
+  if (!p.picture.empty()) fmt::print("picture:\n{}", p.picture);
   if (!p.settings.empty()) fmt::print("settings (folder {}):\n{}", p.settings_folder, p.settings);
 }
 

@@ -24,6 +24,7 @@ constexpr const char* kExamples = R"(Examples:
   espalier inspect out/ship/best.png
   espalier reproduce out/ship/best.glb
   espalier export out/ship/best.derivation.json -o ship.stl
+  espalier render out/ship -o ship.png --size 1600x1200
   espalier graph grammars/spaceship.esp -o spaceship.svg
   espalier explain grammars/spaceship.esp
 
@@ -41,6 +42,7 @@ struct CommandLine {
   InspectOptions inspect;
   ReproduceOptions reproduce;
   ExportVerbOptions export_;
+  RenderOptions render;
   GraphOptions graph;
   ExplainOptions explain;
   std::function<int()> verb;
@@ -172,6 +174,39 @@ void declare_file_verbs(CLI::App& app, CommandLine& line) {
   exporting->callback([&line] { line.verb = [&line] { return export_verb(line.export_); }; });
 }
 
+void declare_render_camera(CLI::App* verb, RenderOptions& o) {
+  verb->add_option("--size", o.size, "Width and height, of a frame: 1200x900 (turntables 400x300)");
+  verb->add_option("--azimuth", o.azimuth, "Where the camera stands, degrees: 0 looks from +z, 90 from +x (35)");
+  verb->add_option("--elevation", o.elevation, "How far above, degrees, -90 to 90 (22)");
+  verb->add_option("--eye", o.eye, "Where the camera stands, metres: x,y,z; instead of azimuth, elevation and framing");
+  verb->add_option("--at", o.at, "What it looks at: x,y,z (the middle of the model)");
+  verb->add_option("--fov", o.fov, "Vertical angle of view, degrees (a long lens: 27 along the longer side)");
+  verb->add_option("--tall", o.tall, "Parallel rays; the height of the picture in metres");
+}
+
+void declare_render(CLI::App& app, CommandLine& line) {
+  CLI::App* verb = app.add_subcommand("render", "Draw a derivation's model: a picture, or a turntable");
+  RenderOptions& o = line.render;
+  verb->add_option("file", o.file, "A .derivation.json, a file made of one, or the folder of a run (its best)")
+      ->required();
+  verb->add_option("--grammar", o.grammar, "Its grammar, if it is not in a run's folder");
+  declare_attributes(verb, o.attributes);
+  verb->add_option("-o,--out", o.out, "Picture to write: .png");
+  declare_render_camera(verb, o);
+  verb->add_option("--samples", o.samples, "Samples per pixel at edges, 1 to 256 (16)");
+  verb->add_option("--background", o.background, "One colour, \"#rrggbb\" (a light backdrop)");
+  verb->add_flag("--transparent", o.transparent, "Alpha instead of a background; the ground's shadow stays");
+  verb->add_flag("--no-ground", o.no_ground, "No ground and no shadow on it");
+  verb->add_option("--view", o.view, "full, parts (what targets see without details), or bones (full)");
+  verb->add_flag("--targets", o.targets, "The scene's meshes as ghosts, as in a run's best.png");
+  verb->add_option("--turntable", o.turntable, "So many frames around the model, in one strip");
+  verb->add_option("--columns", o.columns, "Columns of the strip (near to 4:3)");
+  verb->add_option("--frames", o.frames, "Folder for the frames of a turntable: 0001.png ..");
+  verb->add_option("--light", o.light, "The light of a turntable stays with the camera, or with the model (camera)");
+  declare_threads(verb, o.threads);
+  verb->callback([&line] { line.verb = [&line] { return render_verb(line.render); }; });
+}
+
 void declare_graph(CLI::App& app, CommandLine& line) {
   CLI::App* verb = app.add_subcommand("graph", "Draw a grammar's generator graph, or a derivation's tree, as SVG");
   GraphOptions& o = line.graph;
@@ -207,6 +242,7 @@ int main_verb(int argc, char** argv) {
   declare_preview(app, line);
   declare_score(app, line);
   declare_file_verbs(app, line);
+  declare_render(app, line);
   declare_graph(app, line);
   declare_explain(app, line);
   try {

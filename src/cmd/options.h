@@ -82,6 +82,18 @@ struct ExportVerbOptions {
   std::vector<std::string> attributes;
 };
 
+struct RenderOptions {
+  std::string file, grammar, out, frames;
+  std::vector<std::string> attributes;
+  std::string size;       // "1200x900"; empty: that, for turntables 400x300
+  std::string eye, at;    // "x,y,z"; empty: not given
+  std::optional<double> azimuth, elevation, fov, tall;
+  std::uint32_t samples = 16, turntable = 0, columns = 0;
+  bool no_ground = false, transparent = false, targets = false;
+  std::string background, view = "full", light;
+  int threads = 0;
+};
+
 struct GraphOptions {
   std::string file;                     // a grammar, or a .derivation.json
   std::string grammar;                  // of a derivation; empty: the copy in its run's folder

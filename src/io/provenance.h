@@ -13,7 +13,7 @@ namespace espalier {
 
 struct Provenance {
   std::string version;  // of Espalier
-  std::string made_by;  // "run", "sample" or "export"
+  std::string made_by;  // "run", "sample", "export" or "render"
   std::uint64_t seed = 0;
   std::uint64_t steps = 0;  // run: steps the engine had taken
   std::uint64_t index = 0;  // run: 0 = best, n = alternative n; sample: which one
@@ -25,6 +25,7 @@ struct Provenance {
   std::string derivation;     // hash of the derivation, hex
   std::optional<double> score;
   std::optional<double> optimum;
+  std::string picture;  // render: its options as TOML
 
   bool operator==(const Provenance&) const = default;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// Camera: a pinhole, or parallel rays. It looks at a set of points from a given side, as near as it can with all of them
-// in the picture, or stands where it is told to.
+// Camera: a pinhole, or parallel rays. It looks at a set of points from a given side, as near as it can with all of
+// them in the picture, or stands where it is told to.
 
 #include <cstdint>
 #include <span>
@@ -31,8 +31,8 @@ struct Camera {
 
   /// The unit direction through the picture point (x, y) in [-1, 1], y upwards.
   Vec3 direction(float x, float y) const;
-  /// The ray through that point. From an eye far beyond the scene of unit size it starts nearer, so that distances along
-  /// it are exact enough.
+  /// The ray through that point. From an eye far beyond the scene of unit size it starts nearer, so that distances
+  /// along it are exact enough.
   Ray ray(float x, float y) const;
   /// The picture point of p, and in z how far ahead of the eye it lies.
   Vec3 picture_point(const Vec3& p) const;
@@ -48,9 +48,10 @@ struct Camera {
 /// Seen from azimuth (0: from +z, 90: from +x) and elevation (-90..90), with no place yet.
 Camera camera_from_side(float azimuth_deg, float elevation_deg, const Lens& lens);
 
-/// `margin` is the share of the picture left free at each side. Parallel rays keep their lens: the middle of the points is
-/// the middle of the picture.
-Camera frame_points(std::span<const Vec3> points, float azimuth_deg, float elevation_deg, const Lens& lens, float margin);
+/// `margin` is the share of the picture left free at each side. Parallel rays keep their lens: the middle of the points
+/// is the middle of the picture.
+Camera frame_points(std::span<const Vec3> points, float azimuth_deg, float elevation_deg, const Lens& lens,
+                    float margin);
 Camera frame_points(std::span<const Vec3> points, float azimuth_deg, float elevation_deg, std::uint32_t width,
                     std::uint32_t height, float margin);
 

@@ -1,5 +1,6 @@
 #pragma once
-// Coverage: which tiles of a picture the parts of a tracer may appear in, so that rays elsewhere need not look for them.
+// Coverage: which tiles of a picture the parts of a tracer may appear in, so that rays elsewhere need not look for
+// them.
 
 #include <cstdint>
 #include <vector>

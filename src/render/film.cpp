@@ -15,6 +15,7 @@ namespace espalier {
 namespace {
 
 constexpr int kCurveSteps = 8192;
+constexpr float kChangeScale = 12;  // of the sum of three channels: a change of light of 3 % halves a far tap's weight
 
 /// 8-bit sRGB of a linear value by a table, fine enough that every byte has several entries.
 std::uint8_t developed(float linear) {
@@ -75,7 +76,8 @@ Film::Film(std::uint32_t width, std::uint32_t height, bool ghosts)
       stride_((width + 2 * kBorder + 3) / 4 * 4),
       rests_(std::size_t{width} * height),
       veils_(ghosts ? rests_.size() : 0) {
-  for (std::vector<float>& plane : planes_) plane.resize(stride_ * (height + 2 * kBorder) + 8);  // vectors may reach beyond the last
+  // A vector may reach beyond the last pixel.
+  for (std::vector<float>& plane : planes_) plane.resize(stride_ * (height + 2 * kBorder) + 8);
 }
 
 void Film::put(std::uint32_t x, std::uint32_t y, const Pixel& pixel) {
@@ -98,6 +100,12 @@ void Film::smooth_four(std::size_t at, std::ptrdiff_t step, float* const (&out)[
   const Float4 n[3] = {load(kNormal, 0), load(kNormal + 1, 0), load(kNormal + 2, 0)};
   const Float4 p[3] = {load(kPosition, 0), load(kPosition + 1, 0), load(kPosition + 2, 0)};
   const Float4 old[3] = {load(kLight, 0), load(kLight + 1, 0), load(kLight + 2, 0)};
+  if (!any(at_least(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], Float4(1e-6f)))) {
+    alignas(16) float same[4];
+    for (int c = 0; c < 3; ++c) old[c].store(same), std::copy_n(same, 4, out[c]);
+    return;
+  }
+  const float change_scale = step > 2 ? kChangeScale : 0;
   Float4 sum[3] = {Float4(0), Float4(0), Float4(0)}, weights(0);
   for (int j = -2; j <= 2; ++j) {
     for (int i = -2; i <= 2; ++i) {
@@ -108,9 +116,11 @@ void Film::smooth_four(std::size_t at, std::ptrdiff_t step, float* const (&out)[
       const Float4 off_plane = (n[0] * (load(kPosition, tap) - p[0]) + n[1] * (load(kPosition + 1, tap) - p[1]) +
                                 n[2] * (load(kPosition + 2, tap) - p[2])) * Float4(150);
       const Float4 l2 = likeness * likeness, l4 = l2 * l2;
+      const Float4 light[3] = {load(kLight, tap), load(kLight + 1, tap), load(kLight + 2, tap)};
+      const Float4 change = (light[0] - old[0] + (light[1] - old[1]) + (light[2] - old[2])) * Float4(change_scale);
       const Float4 weight = where(like, Float4(kKernel[std::abs(i)] * kKernel[std::abs(j)]) * l4 * l4 /
-                                            (Float4(1) + off_plane * off_plane));
-      for (int c = 0; c < 3; ++c) sum[c] = sum[c] + weight * load(kLight + c, tap);
+                                            (Float4(1) + off_plane * off_plane + change * change));
+      for (int c = 0; c < 3; ++c) sum[c] = sum[c] + weight * light[c];
       weights = weights + weight;
     }
   }

@@ -36,13 +36,14 @@ class Film {
   /// Pixels may be put from several threads.
   void put(std::uint32_t x, std::uint32_t y, const Pixel& pixel);
 
-  /// One pass over taps `step` pixels apart, 1 or 2.
+  /// One pass over taps `step` pixels apart, 1, 2 or 4. Far ones count only where the light is all but the same: they take
+  /// away the last mottles and leave shadows alone.
   void smooth_light(std::uint32_t step, Executor& executor);
   /// With alpha if the stage is clear.
   Picture develop(const View& view, Executor& executor) const;
 
  private:
-  static constexpr std::uint32_t kBorder = 4;  // around the planes: what a tap may reach, and a vector more
+  static constexpr std::uint32_t kBorder = 8;  // around the planes: what a tap may reach
   enum Plane { kNormal = 0, kPosition = 3, kLight = 6, kPlanes = 9 };
 
   std::size_t place(std::uint32_t x, std::uint32_t y) const { return x + kBorder + stride_ * (y + kBorder); }

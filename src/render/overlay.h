@@ -1,6 +1,6 @@
 #pragma once
-// Overlay: what a silhouette covers of a drawing, pixel by pixel in colours: hit, missed, spilled. Also the drawing alone,
-// as it is understood. Legends for these and other pictures.
+// Overlay: what a silhouette covers of a drawing, pixel by pixel in colours: hit, missed, spilled. Also the drawing
+// alone, as it is understood. Legends for these and other pictures.
 
 #include <cstdint>
 #include <string>
@@ -28,7 +28,8 @@ struct MarkedPixels {
   std::vector<std::uint8_t> degrees;  // how much each is wanted, or not: 255 fully
 };
 
-/// Of a mark at its full degree.
+/// Of a mark at its full degree. Blue, amber and vermilion differ in lightness, so that eyes without one kind of cones
+/// tell them apart as well.
 Colour colour_of(Mark mark);
 
 inline constexpr std::uint32_t kOverlayAcross = 1024;

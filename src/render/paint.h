@@ -15,9 +15,9 @@ struct Colour {
   bool operator==(const Colour&) const = default;
 };
 
-/// The colours of sheets and overlays. Blue, amber and vermilion differ in lightness, so that eyes without one kind of
-/// cones tell them apart as well.
-inline constexpr Colour kPaper{{246, 246, 244}}, kInk{{40, 42, 46}}, kFrame{{205, 206, 208}}, kFaintInk{{112, 116, 122}};
+/// Of sheets.
+inline constexpr Colour kPaper{{246, 246, 244}}, kInk{{40, 42, 46}}, kFrame{{205, 206, 208}};
+inline constexpr Colour kFaintInk{{112, 116, 122}};
 
 /// `part` of 256 of the way from a to b.
 constexpr Colour mix(const Colour& a, const Colour& b, std::uint32_t part) {

@@ -71,6 +71,8 @@ class PixelTracer {
       // Far from all shadows half of the samples are enough.
       const float open = static_cast<float>(count);
       if (light.key < open || light.open < open) take(few_);
+      // In half shadow, where noise shows, twice as many.
+      if (light.key > 0 && light.key < static_cast<float>(count)) take(2 * few_);
       lit(view_, mean(light, count), sample);
     }
     return develop_plain(samples_);
@@ -85,11 +87,12 @@ class PixelTracer {
     }
   }
 
-  /// Light is gathered for the first samples of every surface, the fewer the more there are, and shared with the others.
+  /// Light is gathered for the first samples of every surface, the fewer the more there are, and shared with the rest.
   void light(const PixelSamples& places) {
     groups_.clear();
     group_of_.assign(samples_.size(), 0);
     std::uint32_t gathered = 0;
+    const std::uint32_t most = samples_.size() > few_ ? 2 * few_ : few_;  // only plain pixels are smoothed
     for (std::uint32_t s = 0; s < samples_.size(); ++s) {
       const Sample& sample = samples_[s];
       if (sample.layered || sample.seen == Seen::backdrop) continue;
@@ -99,7 +102,7 @@ class PixelTracer {
       if (g == groups_.size()) groups_.push_back({sample.surface, 0, sample.normal, {}});
       group_of_[s] = g;
       Group& group = groups_[g];
-      if (group.count >= few_ || (group.count > 0 && gathered >= 2 * few_)) continue;
+      if (group.count >= most || (group.count > 0 && gathered >= 3 * few_)) continue;
       add(gather(view_, sample, places.number(s)), group.light);
       ++group.count, ++gathered;
     }
@@ -117,7 +120,9 @@ class PixelTracer {
   std::vector<std::uint32_t> group_of_;  // per sample
 };
 
-Picture picture_of(const View& view, int samples, Executor& executor) {
+Picture picture_of(View view, int samples, Executor& executor) {
+  const GroundShade ground_shade(view.stage, view.set.opaque);
+  view.ground_shade = &ground_shade;
   Coverage coverage(view.camera, view.width, view.height);
   for (const Tracer* tracer : {&view.set.opaque, &view.set.translucent, &view.set.ghosts}) coverage.add(*tracer);
   Film film(view.width, view.height, !view.set.ghosts.empty());
@@ -132,7 +137,7 @@ Picture picture_of(const View& view, int samples, Executor& executor) {
         film.put(x, y, tracer.trace(x, y, coverage.may_show(x, y)));
     }
   });
-  for (const std::uint32_t step : {1u, 2u}) film.smooth_light(step, executor);
+  for (const std::uint32_t step : {1u, 2u, 4u}) film.smooth_light(step, executor);
   return film.develop(view, executor);
 }
 
@@ -142,9 +147,13 @@ Lens lens_for(const RenderSettings& s, const Set& set) {
   return s.fov_deg ? lens_of_angle(*s.fov_deg, s.width, s.height) : long_lens(s.width, s.height);
 }
 
+/// What a placed camera looks at.
+Vec3 looked_at(const CameraPlace& place, const Set& set) { return place.at ? set.unit_point(*place.at) : Vec3(0); }
+
 Camera placed(const CameraPlace& place, const Set& set, const Lens& lens) {
-  CHECK(place.eye != place.at);
-  return placed_camera(set.unit_point(place.eye), set.unit_point(place.at), lens, place.up);
+  Vec3 eye = set.unit_point(place.eye);
+  if (eye == looked_at(place, set)) eye.z += 1e-3f;  // in the very middle of the model, or all but
+  return placed_camera(eye, looked_at(place, set), lens, place.up);
 }
 
 Stage stage_for(const RenderSettings& settings, const Set& set, const Camera& camera) {
@@ -163,7 +172,7 @@ Picture render(const Model& model, const MeshTable& meshes, const Surfaces& surf
   const Camera camera =
       settings.place ? placed(*settings.place, set, lens)
                      : frame_points(set.corners, settings.azimuth_deg, settings.elevation_deg, lens, kMargin);
-  const View view{set, stage_for(settings, set, camera), camera, settings.width, settings.height};
+  const View view{set, stage_for(settings, set, camera), camera, settings.width, settings.height, nullptr};
   return picture_of(view, settings.samples, executor);
 }
 
@@ -175,9 +184,10 @@ void render_turntable(const Model& model, const MeshTable& meshes, const Surface
   const Camera first =
       settings.place ? placed(*settings.place, set, lens)
                      : frame_turning(set.corners, settings.azimuth_deg, settings.elevation_deg, lens, kMargin);
-  const Vec3 axis = settings.place ? set.unit_point(settings.place->at) : Vec3(0);
-  View view{set, stage_for(settings, set, first), first, settings.width, settings.height};
-  for (std::uint32_t frame = 0; frame < turntable.frames; ++frame) {
+  const Vec3 axis = settings.place ? looked_at(*settings.place, set) : Vec3(0);
+  View view{set, stage_for(settings, set, first), first, settings.width, settings.height, nullptr};
+  const std::uint32_t begin = turntable.only.value_or(0), end = turntable.only ? begin + 1 : turntable.frames;
+  for (std::uint32_t frame = begin; frame < end; ++frame) {
     view.camera = turned(first, axis, 360.0f * static_cast<float>(frame) / static_cast<float>(turntable.frames));
     if (!turntable.fixed_light) view.stage.to_key = make_stage(set.lowest, view.camera).to_key;
     take(frame, picture_of(view, settings.samples, executor));

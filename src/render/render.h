@@ -21,9 +21,11 @@ struct Picture {
   std::vector<std::uint8_t> alpha = {};  // one per pixel, colours not multiplied by it; empty: all is opaque
 };
 
-/// In model space, m. `eye` and `at` must differ; looking along `up`, what is up in the picture is anyone's guess.
+/// In model space, m. Looking along `up`, what is up in the picture is anyone's guess.
 struct CameraPlace {
-  Vec3 eye{0, 0, 5}, at{0}, up{0, 1, 0};
+  Vec3 eye{0, 0, 5};
+  std::optional<Vec3> at;  // none: the middle of all that is shown
+  Vec3 up{0, 1, 0};
 };
 
 struct RenderSettings {
@@ -49,17 +51,21 @@ Picture render(const Model& model, const MeshTable& meshes, const Surfaces& surf
 struct Turntable {
   std::uint32_t frames = 8;  // evenly around the model; the first is what `settings` ask for
   bool fixed_light = false;  // stays with the model; else with the camera
+  std::optional<std::uint32_t> only = {};  // this frame alone
 };
 
-/// The camera goes round the vertical axis of the model, or round `settings.place->at`, against the clock seen from above.
-/// All frames have the same distance and lens, which show the model whole from all sides. Calls take(0, ..), take(1, ..)
-/// one after another.
+/// The camera goes round the vertical axis of the model, or round what `settings.place` looks at, against the clock
+/// seen from above. All frames have the same distance and lens, which show the model whole from all sides. Calls
+/// take(0, ..), take(1, ..) one after another.
 void render_turntable(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
                       const std::vector<Mesh>& ghosts, const RenderSettings& settings, const Turntable& turntable,
                       Executor& executor, const std::function<void(std::uint32_t frame, Picture picture)>& take);
 
-/// Equal pictures side by side without gaps, row by row, in so many columns; 0 = near to 4:3, with few places empty.
-Picture picture_strip(const std::vector<Picture>& frames, std::uint32_t columns = 0);
+/// A strip: equal frames side by side without gaps, row by row. Columns that bring it near to 4:3 and leave few places
+/// empty; a strip with nothing in it, of frames like this; and the frame of a number put into its place.
+std::uint32_t strip_columns(std::size_t frames, std::uint32_t width, std::uint32_t height);
+Picture empty_strip(std::size_t frames, const Picture& frame, std::uint32_t columns);
+void paste_frame(Picture& strip, const Picture& frame, std::size_t number, std::uint32_t columns);
 
 struct SheetCell {
   Picture picture;

@@ -84,7 +84,8 @@ class LightTables {
   Vec3 hemisphere_[kSize];
 };
 
-/// The direction within a cone about the unit vector `axis`, whose half angle has the tangent `spread`, at `d` of the disc.
+/// The direction within a cone about the unit vector `axis`, whose half angle has the tangent `spread`, at `d` of the
+/// disc.
 inline Vec3 in_cone(const Vec3& axis, float spread, const Vec2& d) {
   Vec3 b1, b2;
   complete_basis(axis, b1, b2);

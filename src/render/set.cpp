@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <unordered_set>
 
@@ -42,17 +41,21 @@ Mat3 cofactors(const glm::dmat3& m) {
   return scale > 0 ? Mat3(c * (sign / scale)) : Mat3(1);
 }
 
-/// Parts met before, equal in every bit: shape, material and place.
+/// Parts met before: of the same shape and material, and all but in one place.
 class Twins {
  public:
-  bool met(const Part& part) {
+  /// `centre` and `sides`: of the shape's box, in the scene of unit size.
+  bool met(const Part& part, const Vec3& centre, const Vec3 (&sides)[3]) {
     Key key{part.shape, part.material};
-    static_assert(sizeof(Frame) == 12 * sizeof(std::uint32_t));
-    std::memcpy(key.data() + 2, &part.model_from_shape, sizeof(Frame));
+    std::size_t at = 2;
+    for (const Vec3& v : {centre, sides[0], sides[1], sides[2]}) {
+      for (int i = 0; i < 3; ++i) key[at++] = cell(v[i]);
+    }
     return !seen_.insert(key).second;
   }
 
  private:
+  static constexpr float kCell = Tracer::kTie;  // surfaces this close coincide anyway
   using Key = std::array<std::uint32_t, 14>;
   struct Hash {
     std::size_t operator()(const Key& key) const {
@@ -61,6 +64,11 @@ class Twins {
       return hash;
     }
   };
+  static std::uint32_t cell(float x) {
+    const float cells = std::clamp(x / kCell, -1e9f, 1e9f);
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(cells + (x < 0 ? -0.5f : 0.5f)));
+  }
+
   std::unordered_set<Key, Hash> seen_;
 };
 
@@ -84,8 +92,8 @@ class SetBuilder {
       const Material& m = surfaces.material(part.material);
       const bool nowhere = alpha == AlphaMode::mask && m.opacity < m.cutout;
       if (shape.mesh.triangles.empty() || nowhere) continue;
-      // Thousands of parts in one place look like one, but every ray would try them all.
-      if (alpha != AlphaMode::blend && twins.met(part)) continue;
+      // Thousands of parts in one place, or a hair's breadth apart, look like one, but every ray would try them all.
+      if (alpha != AlphaMode::blend && met(twins, part, shape.box)) continue;
       (alpha == AlphaMode::blend ? translucent : opaque).push_back(place(part, shape));
     }
     for (Mesh& ghost : ghosts_) {
@@ -129,6 +137,13 @@ class SetBuilder {
   }
 
   Vec3 unit_point(const Vec3& p) const { return set_.unit_point(p); }
+
+  bool met(Twins& twins, const Part& part, const Bounds& box) const {
+    Vec3 sides[3];
+    for (int i = 0; i < 3; ++i)
+      sides[i] = Vec3(glm::dvec3(part.model_from_shape.basis[i]) * (set_.scale * static_cast<double>(box.size()[i])));
+    return twins.met(part, unit_point(part.model_from_shape.point(box.centre())), sides);
+  }
 
   Placed place(const Part& part, const Shape& shape) {
     Placed placed;

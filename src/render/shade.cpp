@@ -97,13 +97,16 @@ Vec3 mirrored_part(const View& view, const Ray& ray, const Tracer::Hit& hit) {
 void gather_mirrored(const View& view, const Sample& sample, const Vec3& start, std::uint32_t number, Light& light) {
   const float n_v = std::max(glm::dot(sample.normal, sample.to_eye), 0.0f);
   const Vec3 mirror = 2 * n_v * sample.normal - sample.to_eye;
+  if (!(sample.metal > kMirrors)) {  // a faint sheen: the middle of what it mirrors will do, and has no noise
+    light.mirrored = studio(glm::normalize(mirror + 0.5f * sample.roughness * (sample.normal - mirror)),
+                            view.stage.to_key);
+    return;
+  }
   const Vec3 direction = in_cone(mirror, 0.02f + 0.7f * sample.roughness, view.stage.tables->in_lobe(number));
-  if (sample.metal > kMirrors) {
-    const Ray ray{start, direction, 0};
-    if (const Tracer::Hit hit = view.set.opaque.intersect(ray, kSkyReach)) {
-      light.mirrored = mirrored_part(view, ray, hit);
-      return;
-    }
+  const Ray ray{start, direction, 0};
+  if (const Tracer::Hit hit = view.set.opaque.intersect(ray, kSkyReach)) {
+    light.mirrored = mirrored_part(view, ray, hit);
+    return;
   }
   light.mirrored = studio(direction, view.stage.to_key);
 }
@@ -161,14 +164,18 @@ Light gather(const View& view, const Sample& sample, std::uint32_t number) {
   const Tracer& opaque = view.set.opaque;
   const LightTables& tables = *view.stage.tables;
   const Vec3 start = sample.position + kOffset * sample.flat;
-  const Vec3 to_key = in_cone(view.stage.to_key, kKeySpread, tables.on_light(number));
-  const float facing = glm::dot(sample.normal, to_key);
-  if (facing > 0 && glm::dot(sample.flat, to_key) > 0 && !opaque.blocks({start, to_key, 0}, 1e30f)) {
+  const bool ground = sample.seen == Seen::ground;
+  if (ground && view.ground_shade && !view.ground_shade->may_hide(sample.position)) {
     light.key = 1;
-    light.diffuse += facing * key_radiance();
+  } else {
+    const Vec3 to_key = in_cone(view.stage.to_key, kKeySpread, tables.on_light(number));
+    const float facing = glm::dot(sample.normal, to_key);
+    if (facing > 0 && glm::dot(sample.flat, to_key) > 0 && !opaque.blocks({start, to_key, 0}, 1e30f)) {
+      light.key = 1;
+      light.diffuse += facing * key_radiance();
+    }
   }
   Vec3 out = tables.over_hemisphere(sample.normal, number);
-  const bool ground = sample.seen == Seen::ground;
   if (glm::dot(out, sample.flat) < 0) out -= 2 * glm::dot(out, sample.flat) * sample.flat;
   const bool blocked = opaque.blocks({start, out, 0}, ground ? kGroundReach : kSkyReach);
   light.open = blocked ? 0 : 1;

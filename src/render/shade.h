@@ -2,6 +2,7 @@
 // Shade: what a camera ray sees. A sample keeps surface colour and arriving light apart, so that the light, which is
 // noisy, can be gathered once for many samples and smoothed without blurring the colours.
 
+#include "render/ground_shade.h"
 #include "render/sampling.h"
 #include "render/set.h"
 #include "render/stage.h"
@@ -14,6 +15,7 @@ struct View {
   Stage stage;
   Camera camera;
   std::uint32_t width = 1, height = 1;
+  const GroundShade* ground_shade = nullptr;  // of this stage; null: not known
 
   /// The picture point of a place in the picture, in pixels from its upper left corner.
   Vec2 picture_point(float x, float y) const {
@@ -49,8 +51,8 @@ struct Sample {
   float metal = 0, roughness = 1, glow = 0;
 };
 
-/// What a ray through the picture point sees, not lit yet, into a fresh `out`. `may_hit`: else the ray is known to pass the
-/// model and the ghosts. `number`: of the sample, for its light if it is layered.
+/// What a ray through the picture point sees, not lit yet, into a fresh `out`. `may_hit`: else the ray is known to pass
+/// the model and the ghosts. `number`: of the sample, for its light if it is layered.
 void see(const View& view, const Vec2& picture, bool may_hit, std::uint32_t number, Sample& out);
 
 /// One sample of the light that arrives at what was seen.

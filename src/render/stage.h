@@ -1,6 +1,6 @@
 #pragma once
-// Stage: what stands around the model. A light backdrop or one colour, a ground that only shows shadows, a large soft key
-// light over the camera's left shoulder, and a sky that is brighter above.
+// Stage: what stands around the model. A light backdrop or one colour, a ground that only shows shadows, a large soft
+// key light over the camera's left shoulder, and a sky that is brighter above.
 
 #include <optional>
 

@@ -113,9 +113,8 @@ Vec3 View::normal(const int (&at)[3], const Vec3& face) const {
         const int x = at[0] + i, y = at[1] + j, z = at[2] + k;
         const bool inside = x >= 0 && y >= 0 && z >= 0 && x < static_cast<int>(voxels_.cells[0]) &&
                             y < static_cast<int>(voxels_.cells[1]) && z < static_cast<int>(voxels_.cells[2]);
-        const bool solid =
-            inside && is_covered(voxels_.mark(voxels_.index(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
-                                                            static_cast<std::uint32_t>(z))));
+        const auto cell = [](int i_at) { return static_cast<std::uint32_t>(i_at); };
+        const bool solid = inside && is_covered(voxels_.mark(voxels_.index(cell(x), cell(y), cell(z))));
         if (!solid) sum += Vec3(static_cast<float>(i), static_cast<float>(j), static_cast<float>(k));
       }
     }
@@ -124,49 +123,63 @@ Vec3 View::normal(const int (&at)[3], const Vec3& face) const {
   return length > 0.5f ? glm::normalize(sum / length + 0.35f * face) : face;
 }
 
-/// Walks from cell to cell (Amanatides and Woo 1987) and lays what it meets behind what it has.
+/// A ray's way from cell to cell (Amanatides and Woo 1987). Every component of its direction is below 0.
+struct Walk {
+  Walk(const MarkedVoxels& grid, const Vec3& cell, const Vec3& origin, float near) : t(near) {
+    const Vec3 start = origin - near * kToViewer;
+    for (int i = 0; i < 3; ++i) {
+      const auto cells = static_cast<int>(grid.cells[static_cast<std::size_t>(i)]);
+      at[i] = std::clamp(static_cast<int>((start[i] - grid.min[i]) / cell[i]), 0, cells - 1);
+      step[i] = cell[i] / kToViewer[i];
+      next[i] = (origin[i] - grid.min[i] - static_cast<float>(at[i]) * cell[i]) / kToViewer[i];
+      if (std::fabs(start[i] - grid.max[i]) < std::fabs(start[axis] - grid.max[axis])) axis = i;
+    }
+  }
+  int leaving() const { return next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2); }
+  float leaves_at() const { return next[leaving()]; }
+  /// False when it leaves the grid.
+  bool advance() {
+    axis = leaving();
+    t = next[axis], next[axis] += step[axis];
+    return --at[axis] >= 0;
+  }
+  std::size_t index(const MarkedVoxels& grid) const {
+    return grid.index(static_cast<std::uint32_t>(at[0]), static_cast<std::uint32_t>(at[1]),
+                      static_cast<std::uint32_t>(at[2]));
+  }
+
+  int at[3], axis = 0;  // the cell, and across which axis it was entered
+  float t, next[3], step[3];
+};
+
+/// Lays what the ray meets behind what it has met.
 Seen View::look(float x, float y) const {
   Seen seen;
   const Vec3 origin = centre_ + (x - 0.5f * static_cast<float>(width_)) * per_pixel_ * right_ +
                       (0.5f * static_cast<float>(height_) - y) * per_pixel_ * up_ + 4 * longest_ * kToViewer;
   float near, far;
   if (!enter(origin, near, far)) return seen;
-  const Vec3 start = origin - near * kToViewer;
-  int at[3], axis = 0;
-  float next[3], step[3];
-  for (int i = 0; i < 3; ++i) {
-    const auto cells = static_cast<int>(voxels_.cells[static_cast<std::size_t>(i)]);
-    at[i] = std::clamp(static_cast<int>((start[i] - voxels_.min[i]) / cell_[i]), 0, cells - 1);
-    step[i] = cell_[i] / kToViewer[i];  // every component of the direction is below 0
-    next[i] = (voxels_.min[i] + static_cast<float>(at[i]) * cell_[i] - origin[i]) / -kToViewer[i];
-    if (std::fabs(start[i] - voxels_.max[i]) < std::fabs(start[axis] - voxels_.max[axis])) axis = i;
-  }
   bool in_haze = false;
-  const Vec3 haze = as_light(colour_of(VoxelMark::missed)), avoided = as_light(colour_of(VoxelMark::avoided));
-  for (float t = near; seen.clear > 0.01f;) {
-    const std::size_t i = voxels_.index(static_cast<std::uint32_t>(at[0]), static_cast<std::uint32_t>(at[1]),
-                                        static_cast<std::uint32_t>(at[2]));
+  Walk walk(voxels_, cell_, origin, near);
+  do {
+    const std::size_t i = walk.index(voxels_);
     const VoxelMark mark = voxels_.mark(i);
-    const int leave = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
     if (is_covered(mark)) {
       Vec3 face(0);
-      face[axis] = 1;
-      seen.colour += seen.clear * shaded(as_light(colour_of(mark, voxels_.twice(i))), normal(at, face));
-      seen.clear = 0, seen.depth = t;
-      break;
+      face[walk.axis] = 1;
+      seen.colour += seen.clear * shaded(as_light(colour_of(mark, voxels_.twice(i))), normal(walk.at, face));
+      seen.clear = 0, seen.depth = walk.t;
+      return seen;
     }
     const bool hazy = mark == VoxelMark::missed || mark == VoxelMark::avoided;
     if (hazy) {
-      const float opacity =
-          std::min(0.9f, kHaze * (next[leave] - t) / longest_ + (in_haze ? 0.0f : kShell));
-      seen.colour += seen.clear * opacity * (mark == VoxelMark::missed ? haze : avoided);
+      const float shell = in_haze ? 0.0f : kShell;
+      const float opacity = std::min(0.9f, kHaze * (walk.leaves_at() - walk.t) / longest_ + shell);
+      seen.colour += seen.clear * opacity * as_light(colour_of(mark));
       seen.clear *= 1 - opacity;
     }
     in_haze = hazy;
-    t = next[leave], axis = leave;
-    next[leave] += step[leave];
-    if (--at[leave] < 0) break;
-  }
+  } while (seen.clear > 0.01f && walk.advance());
   return seen;
 }
 

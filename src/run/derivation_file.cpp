@@ -48,31 +48,34 @@ std::optional<Provenance> provenance_of(const std::string& path) {
   }
 }
 
-// Grammar and attributes by the settings that the derivation's provenance holds.
-LoadedGrammar grammar_of(const std::string& path, const Provenance& p,
-                         const std::map<std::string, std::string>& attributes) {
+}  // namespace
+
+std::string settings_folder_of(const std::string& path, const Provenance& provenance) {
+  return (fs::absolute(path).parent_path() / provenance.settings_folder).lexically_normal().string();
+}
+
+LoadedGrammar grammar_of_settings(const std::string& settings, const std::string& name, const std::string& folder,
+                                  const std::map<std::string, std::string>& attributes) {
   const auto with = [&](std::map<std::string, std::string> set) {
     for (const auto& [attribute, value] : attributes) set[attribute] = value;
     return set;
   };
-  const std::string folder = (fs::absolute(path).parent_path() / p.settings_folder).lexically_normal().string();
-  const std::string name = path + " (its settings)";
-  if (parse_toml(p.settings, name).find("espalier_sample")) {
-    const SampleRequest request = parse_sample_request(p.settings, name, folder);
+  if (parse_toml(settings, name).find("espalier_sample")) {
+    const SampleRequest request = parse_sample_request(settings, name, folder);
     return load_grammar((fs::path(folder) / request.grammar).string(), with(request.attributes));
   }
-  const Scene scene = parse_scene(p.settings, name, folder);
+  const Scene scene = parse_scene(settings, name, folder);
   return load_grammar((fs::path(folder) / scene.grammar).string(), with(scene.attributes));
 }
 
-// The original's provenance, seen from where the export lies.
-Provenance export_provenance(const ExportRequest& request, const std::optional<Provenance>& original,
-                             const LoadedGrammar& grammar, const Derivation& derivation) {
+Provenance made_from(const std::string& derivation_path, bool as_it_is, const LoadedGrammar& grammar,
+                     const Derivation& derivation, const std::string& out) {
   Provenance p;
-  if (original && request.grammar.empty() && request.attributes.empty()) {
+  const std::optional<Provenance> original = provenance_of(derivation_path);
+  if (original && as_it_is) {
     p = *original;
-    const fs::path folder = fs::weakly_canonical(fs::absolute(request.derivation).parent_path() / p.settings_folder);
-    const fs::path from = fs::weakly_canonical(fs::absolute(request.out).parent_path());
+    const fs::path folder = fs::weakly_canonical(fs::absolute(derivation_path).parent_path() / p.settings_folder);
+    const fs::path from = fs::weakly_canonical(fs::absolute(out).parent_path());
     p.settings_folder = folder.lexically_relative(from).generic_string();
   } else {
     for (const SourceText& source : grammar.sources)
@@ -83,8 +86,6 @@ Provenance export_provenance(const ExportRequest& request, const std::optional<P
   p.derivation = hash_text(derivation);
   return p;
 }
-
-}  // namespace
 
 Explanation score_derivation(const Scene& scene, const std::string& derivation_path, MeshSource& source,
                              AdaptedGenes* adapted) {
@@ -103,7 +104,8 @@ LoadedDerivation load_derivation(const std::string& path, const std::string& gra
       read_file(path, kMostDerivationBytes);  // a missing file is named as such
       throw Error(fmt::format("{}: does not say which grammar it belongs to; name it with --grammar", path));
     }
-    loaded.grammar = grammar_of(path, *provenance, attributes);
+    loaded.grammar = grammar_of_settings(provenance->settings, path + " (its settings)",
+                                         settings_folder_of(path, *provenance), attributes);
   } else {
     loaded.grammar = load_grammar(grammar, attributes);
   }
@@ -116,13 +118,13 @@ ExportReport export_derivation(const ExportRequest& request, MeshSource& source,
   if (request.out.ends_with(".json") || request.out.ends_with(".png")) {
     throw Error(fmt::format("{}: export writes .glb, .obj, .ply or .stl", request.out));
   }
-  const std::optional<Provenance> original = provenance_of(request.derivation);
   const auto [grammar, derivation, adapted] =
       load_derivation(request.derivation, request.grammar, request.attributes);
   const MeshTable meshes = load_meshes(grammar, source);
   const std::vector<Mesh> no_ghosts;
   ModelFiles files(*grammar.graph, meshes, load_textures(grammar), no_ghosts, {1200, 900}, executor);
-  files.write(derivation, request.out, export_provenance(request, original, grammar, derivation));
+  const bool as_it_is = request.grammar.empty() && request.attributes.empty();
+  files.write(derivation, request.out, made_from(request.derivation, as_it_is, grammar, derivation, request.out));
   return {adapted, files.model().truncated};
 }
 

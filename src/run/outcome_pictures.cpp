@@ -16,11 +16,13 @@ std::string name_of(const Setup& setup, const char* kind, std::size_t index) {
 
 OutcomePicture view_outcome(const Outcome& outcome, std::size_t index, const OutcomeLook& look, Executor& executor) {
   const Setup& setup = outcome.setup;
+  auto room = look.view;
+  if (setup.silhouettes.size() > kManySilhouettes) room = {std::max(1u, room[0] / 2), std::max(1u, room[1] / 2)};
   const bool shadow = setup.scene.silhouettes[index].shadow.has_value();
   return {OutcomeKind::view,
           fmt::format("{}, {}", setup.silhouettes[index]->name(),
                       shadow ? "the shadow on its plane; amber: wanted" : "from its camera"),
-          silhouette_view(setup, index, outcome.model, outcome.surfaces, look.view, look.view_samples, executor), {}};
+          silhouette_view(setup, index, outcome.model, outcome.surfaces, room, look.view_samples, executor), {}};
 }
 
 OutcomePicture silhouette_outcome(const SilhouetteTarget& target, const Model& model, const OutcomeLook& look) {

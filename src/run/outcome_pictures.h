@@ -1,6 +1,6 @@
 #pragma once
-// Outcome pictures: what a run's best does with its targets, drawn: per silhouette a view from its camera and an overlay,
-// and an overlay of the volume.
+// Outcome pictures: what a run's best does with its targets, drawn: per silhouette a view from its camera and an
+// overlay, and an overlay of the volume.
 
 #include <array>
 #include <cstdint>
@@ -30,13 +30,14 @@ struct OutcomePicture {
   std::vector<LegendRow> legend;  // views have none
 };
 
-/// How large, in pixels across, and how fine.
+/// How large, in pixels across, and how fine. Views of scenes with more than kManySilhouettes have half of each side.
 struct OutcomeLook {
   std::array<std::uint32_t, 2> view = {1200, 900};
   int view_samples = RenderSettings().samples;
   std::uint32_t silhouette = kOverlayAcross, volume = 1400, volume_samples = 2;
 };
 
+inline constexpr std::size_t kManySilhouettes = 8;
 inline constexpr const char* kVolumeOverlayName = "volume.png";
 
 /// Names of all that a scene's targets give, in the order of the scene: "view.png" and "silhouette.png", or of several

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/check.h"
+#include "base/counted.h"
 
 namespace espalier {
 namespace {
@@ -31,11 +32,12 @@ MarkedPixels marked(const WeightImage& image, const MarkOf& mark_of) {
   return out;
 }
 
-/// "12 345 pixels, 81.0 % of what is wanted"
-std::string counted_share(const char* what, std::uint64_t count, const char* unit, std::uint64_t of, const char* whole) {
-  std::string text = fmt::format("{}: {} {}{}", what, count, unit, count == 1 ? "" : "s");
-  if (of > 0) text += fmt::format(", {:.1f} % of {}", 100 * static_cast<double>(count) / static_cast<double>(of), whole);
-  return text;
+/// "hit: 12345 pixels, 81.0 % of what is wanted"
+std::string counted_share(const char* what, std::uint64_t count, const char* unit, std::uint64_t of,
+                          const char* whole) {
+  const std::string text = fmt::format("{}: {}", what, counted(count, unit));
+  if (of == 0) return text;
+  return text + fmt::format(", {:.1f} % of {}", 100 * static_cast<double>(count) / static_cast<double>(of), whole);
 }
 
 VoxelMark mark_of(bool covered, bool wanted, bool avoided, bool any_wanted) {

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "base/counted.h"
 #include "render/camera.h"
@@ -11,6 +10,7 @@
 #include "render/voxel_view.h"
 #include "run/overlays.h"
 #include "run/preview.h"
+#include "run/silhouette_view.h"
 
 namespace espalier {
 namespace {
@@ -85,7 +85,7 @@ Picture meshes_in_grid(const Setup& setup, Executor& executor) {
   for (int k = 0; k < 8; ++k) points.push_back(corner(all.min, all.max, k));
   const Camera camera =
       frame_points(points, look.azimuth_deg, look.elevation_deg, look.width, look.height, 0.04f);
-  look.place = CameraPlace{camera.eye, camera.eye + glm::length(all.size()) * camera.forward};
+  look.place = place_of(camera);
   Picture picture = render(Model(), setup.meshes, setup.graph().materials, setup.targets, look, executor);
   const auto pixel = [&](int k, int axis) {
     const Vec3 p = camera.picture_point(corner(grid.min, grid.max, k));

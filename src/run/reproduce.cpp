@@ -11,6 +11,7 @@
 #include "base/version.h"
 #include "io/file.h"
 #include "io/provenance.h"
+#include "run/picture_file.h"
 #include "run/results.h"
 #include "run/sample.h"
 #include "run/scene_toml.h"
@@ -80,6 +81,25 @@ std::string written_with(const std::string& filename) {
   return filename.ends_with(".mtl") ? fs::path(filename).stem().string() + ".obj" : filename;
 }
 
+void compare_bytes(const std::string& filename, const std::string& before, const std::string& after,
+                   ReproduceReport& report) {
+  if (before == after) {
+    report.same.push_back(fmt::format("{} bytes of {}", before.size(), filename));
+    return;
+  }
+  const auto [a, b] = std::mismatch(before.begin(), before.end(), after.begin(), after.end());
+  report.differences.push_back(fmt::format("{} differs from byte {} on ({} bytes, made anew {})", filename,
+                                           a - before.begin(), before.size(), after.size()));
+}
+
+// A picture of `espalier render`: drawn again as its own options say.
+void compare_picture(const Job& job, const Derivation& derivation, MeshSource& source, Executor& executor,
+                     ReproduceReport& report) {
+  const PictureRequest request = parse_picture_request(job.provenance.picture, job.path + " (its picture)");
+  const std::string after = picture_again(request, derivation, job.provenance, job.folder, source, executor);
+  compare_bytes(fs::path(job.path).filename().string(), read_file(job.path), after, report);
+}
+
 // Writes the file again with the set's own writer and compares bytes.
 template <typename Set>
 void compare_file(const Job& job, Set& set, ReproduceReport& report) {
@@ -96,13 +116,7 @@ void compare_file(const Job& job, Set& set, ReproduceReport& report) {
   }
   std::string before = read_file(job.path), after = read_file(temporary.file(filename));
   if (filename == "result.json") before = without_times(before), after = without_times(after);
-  if (before == after) {
-    report.same.push_back(fmt::format("{} bytes of {}", before.size(), filename));
-  } else {
-    const auto [a, b] = std::mismatch(before.begin(), before.end(), after.begin(), after.end());
-    report.differences.push_back(fmt::format("{} differs from byte {} on ({} bytes, made anew {})", filename,
-                                             a - before.begin(), before.size(), after.size()));
-  }
+  compare_bytes(filename, before, after, report);
 }
 
 void compare_derivation(const Job& job, const std::string& made, ReproduceReport& report) {
@@ -126,7 +140,9 @@ void replay_run(const Job& job, MeshSource& source, Executor& executor, Reproduc
     report.differences.push_back(fmt::format("there is no alternative {}, only {}", p.index, writer.size() - 1));
     return;
   }
-  compare_derivation(job, hash_text(writer.individual(p.index).derivation), report);
+  const Derivation& derivation = writer.individual(p.index).derivation;
+  compare_derivation(job, hash_text(derivation), report);
+  if (p.made_by == "render") return compare_picture(job, derivation, source, executor, report);
   compare_file(job, writer, report);
 }
 
@@ -136,6 +152,7 @@ void replay_sample(const Job& job, MeshSource& source, Executor& executor, Repro
   report.what = fmt::format("sample {} with seed {}", p.index + 1, p.seed);
   if (p.index >= samples.size()) throw Error(fmt::format("{}: its provenance names no sample of its set", job.path));
   compare_derivation(job, hash_text(samples.derivation(p.index)), report);
+  if (p.made_by == "render") return compare_picture(job, samples.derivation(p.index), source, executor, report);
   compare_file(job, samples, report);
 }
 

@@ -6,14 +6,13 @@
 #include <glm/geometric.hpp>
 
 #include "base/math.h"
-#include "render/camera.h"
 #include "render/paint.h"
 #include "run/scene_silhouettes.h"
 
 namespace espalier {
 namespace {
 
-constexpr std::uint32_t kFineSide = 1600;  // pixels of the shadow's longer side at least, unless the target has more
+constexpr std::uint32_t kFineSide = 1600;  // pixels of the shadow's longer side, as it is drawn
 constexpr int kPlaneSamples = 3;           // along each side of a pixel
 constexpr float kMargin = 0.05f;
 constexpr Colour kAround{{226, 228, 230}}, kSheet{{253, 253, 252}}, kWished{{255, 221, 148}}, kShade{{62, 70, 86}};
@@ -45,10 +44,10 @@ class ShadowPlane {
               const Model& model)
       : screen_(*silhouette.shadow) {
     const WeightImage& image = target.settings().image;
-    const std::uint32_t fine = std::max(1u, kFineSide / std::max(image.width, image.height));
+    const auto size = fitted({image.width, image.height}, {kFineSide, kFineSide});
     SilhouetteSettings settings;
-    settings.projection = projection_of(silhouette, {image.width * fine, image.height * fine});
-    settings.image = resized(image, image.width * fine, image.height * fine);
+    settings.projection = projection_of(silhouette, size);
+    settings.image = resized(image, size[0], size[1]);
     const SilhouetteTarget finer(std::move(settings), meshes);
     projection_ = finer.settings().projection;
     wished_ = finer.settings().image;
@@ -135,7 +134,7 @@ Picture shadow_view(const Setup& setup, std::size_t index, const Model& model, c
     points.emplace_back(k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z);
   }
   const Camera camera = shadow_camera(plane, points, look);
-  look.place = CameraPlace{camera.eye, camera.eye + glm::distance(points[0], points[3]) * camera.forward};
+  look.place = place_of(camera);
   look.ground = false, look.transparent = true;
   const SceneShadow& shadow = *silhouette.shadow;
   const Vec3 to_light = shadow.lamp ? shadow.light - (box.empty() ? shadow.centre : box.centre()) : -shadow.light;
@@ -146,6 +145,11 @@ Picture shadow_view(const Setup& setup, std::size_t index, const Model& model, c
 }
 
 }  // namespace
+
+// Far enough that `at` is another point, however far out the eye is.
+CameraPlace place_of(const Camera& camera) {
+  return {camera.eye, camera.eye + std::max(1.0f, glm::length(camera.eye)) * camera.forward};
+}
 
 Picture silhouette_view(const Setup& setup, std::size_t index, const Model& model, const Surfaces& surfaces,
                         std::array<std::uint32_t, 2> room, int samples, Executor& executor) {

@@ -50,8 +50,8 @@ class Cmd : public ::testing::Test {
 TEST_F(Cmd, HelpAndVersionSucceed) {
   const ChildResult help = espalier({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* verb : {"check", "sample", "run", "score", "inspect", "reproduce", "export", "graph", "explain",
-                           "preview"}) {
+  for (const char* verb : {"check", "sample", "run", "score", "inspect", "reproduce", "export", "render", "graph",
+                           "explain", "preview"}) {
     EXPECT_THAT(help.out, HasSubstr(std::string("espalier ") + verb)) << "an example, or the list of verbs";
     EXPECT_EQ(espalier({verb, "--help"}).exit_code, 0) << verb;
   }
