@@ -46,8 +46,7 @@ ReportPicture silhouette_picture(const SilhouetteTarget& target) {
 ReportPicture report_picture(const OutcomePicture& drawn) {
   const Picture& p = drawn.picture;
   return {drawn.kind == OutcomeKind::view ? "As the target sees it" : "Hit and missed", drawn.caption,
-          encode_png(p.width, p.height, p.rgb, "Title", "espalier: outcome"), drawn.legend,
-          drawn.kind == OutcomeKind::volume};
+          encode_png(p.width, p.height, p.rgb, "Title", "espalier: outcome"), drawn.legend};
 }
 
 std::vector<ReportPicture> outcome_pictures(const Outcome& outcome, const OutcomeLook& look, Executor& executor) {

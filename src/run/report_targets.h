@@ -16,7 +16,6 @@ struct ReportPicture {
   std::string title, caption;
   std::string png;
   std::vector<LegendRow> legend = {};
-  bool broad = false;  // wants more room than others
 };
 
 /// One picture or more per kind of target, in the order in which they are to be read; each kind adds its own here.

@@ -76,8 +76,8 @@ TEST_F(Browser, ShowsWhatIsHitAndMissedBesideTheTarget) {
   )"));
   EXPECT_EQ(attribute(document, "<html", "data-ready"), "ok");
   EXPECT_EQ(attribute(document, "<html", "data-seen"),
-            "9;Best;As the target sees it;Hit and missed;As the target sees it;Hit and missed;Hit and missed;"
-            "Target silhouette;Target silhouette;Target volume;hit;true;hit;true;filled;true;true");
+            "9;Best;Hit and missed;Target volume;Target silhouette;As the target sees it;Hit and missed;"
+            "Target silhouette;As the target sees it;Hit and missed;filled;true;hit;true;hit;true;true");
 }
 
 TEST_F(Browser, WithoutWebGlThePictureStandsThere) {
