@@ -1,15 +1,17 @@
 // Pictures: a whole render() of 800 x 600 of a tree of 10 000 parts (must: 1 s on two cores; aim: 0.2 s), one with
-// leaves cut out of pictures, a town, and parts that lie almost in one place, which no tree of boxes can part.
+// leaves, a town, and parts that lie almost in one place, which no tree of boxes can part.
+
+#include <functional>
 
 #include <benchmark/benchmark.h>
 
 #include "base/check.h"
 #include "derivation/moves.h"
 #include "derivation/sample.h"
+#include "io/mesh_import.h"
 #include "model/expand.h"
 #include "render/render.h"
 #include "run/grammar_file.h"
-#include "io/mesh_import.h"
 
 namespace espalier {
 namespace {

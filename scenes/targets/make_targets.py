@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the target meshes of the shipped scenes. Not needed to build or run: the meshes are kept beside it.
 
-    python3 scenes/targets/make_targets.py        (writes ship.obj and citadel.obj beside this file)
+    python3 scenes/targets/make_targets.py        (writes its meshes beside this file)
 """
 import math
 import os
@@ -98,6 +98,119 @@ def citadel():
     write_obj("citadel.obj", "a town on a rock: terraces and a spire", vertices, quads)
 
 
+def turned(profile, sides, radius_at=lambda angle, height: 1.0):
+    """A closed surface of revolution about y: `profile` of (radius, height) from the foot on the axis to the top on it.
+    `radius_at` scales the radius, so that a crown has lobes."""
+    vertices, quads, rings = [(0.0, profile[0][1], 0.0)], [], []
+    for radius, height in profile[1:-1]:
+        rings.append(len(vertices))
+        for k in range(sides):
+            a = 2 * math.pi * k / sides
+            r = radius * radius_at(a, height)
+            vertices.append((r * math.cos(a), height, r * math.sin(a)))
+    apex = len(vertices)
+    vertices.append((0.0, profile[-1][1], 0.0))
+    for k in range(sides):
+        n = (k + 1) % sides
+        quads.append((0, rings[0] + k, rings[0] + n))
+        for a, b in zip(rings, rings[1:]):
+            quads.append((a + k, b + k, b + n, a + n))
+        quads.append((rings[-1] + k, apex, rings[-1] + n))
+    return vertices, quads
+
+
+def crown():
+    """A tree: a stem and a round crown of five lobes."""
+    profile = [(0.0, -0.8), (0.42, -0.8), (0.36, 0.0), (0.34, 0.7)]
+    rise, wide, tall = 2.55, 2.05, 1.75
+    for i in range(1, 16):
+        t = math.pi * i / 16
+        profile.append((max(wide * math.sin(t) ** 0.85, 0.34 if i < 3 else 0.0), rise - tall * math.cos(t)))
+    profile.append((0.0, rise + tall))
+
+    def lobes(angle, height):
+        return 1 + 0.12 * smooth(1.0, 2.2, height) * math.cos(5 * angle + 1.1 * height)
+
+    vertices, quads = turned(profile, 60, lobes)
+    write_obj("crown.obj", "a tree: stem and crown", vertices, quads)
+
+
+def canopy():
+    """What grows out of the tube: a stem within it, and a flat crown above it."""
+    profile = [(0.0, -0.8), (0.45, -0.8), (0.45, 2.4)]
+    rise, wide, tall = 4.0, 2.7, 1.35
+    for i in range(2, 20):
+        t = math.pi * i / 20
+        profile.append((wide * math.sin(t) ** 0.8, rise - tall * math.cos(t)))
+    profile.append((0.0, rise + tall))
+    vertices, quads = turned(profile, 48)
+    write_obj("canopy.obj", "a stem and a flat crown above the tube", vertices, quads)
+
+
+def tube():
+    """An upright tube, open at both ends, around the origin."""
+    inner, outer, low, high, sides = 1.15, 1.45, -0.8, 2.2, 48
+    section = [(inner, low), (outer, low), (outer, high), (inner, high)]
+    vertices, quads = [], []
+    for k in range(sides):
+        a = 2 * math.pi * k / sides
+        for radius, height in section:
+            vertices.append((radius * math.cos(a), height, radius * math.sin(a)))
+    for k in range(sides):
+        n = (k + 1) % sides
+        for i in range(4):
+            j = (i + 1) % 4
+            quads.append((4 * k + i, 4 * k + j, 4 * n + j, 4 * n + i))
+    write_obj("tube.obj", "an upright tube, to be kept clear of", vertices, quads)
+
+
+def castle(name, n):
+    """A castle on n x n lots of 2.2 m: four towers, walls between them, a court and a keep. Columns of cubes, and of their
+    faces those between inside and outside."""
+    lot = 2.2
+    levels = [0.0, 1.2, 4.2, 8.0, 9.8]
+
+    def height(i, j):
+        edge_i, edge_j = min(i, n - 1 - i), min(j, n - 1 - j)
+        if edge_i < 2 and edge_j < 2:
+            return 3  # towers of 2 x 2 lots
+        if edge_i == 0 or edge_j == 0:
+            return 2  # walls of one lot
+        if edge_i == (n - 1) // 2 and edge_j == (n - 1) // 2:
+            return 4  # the keep
+        return 1
+
+    def inside(i, j, k):
+        return 0 <= i < n and 0 <= j < n and 0 <= k < height(i, j)
+
+    vertices, quads, numbers = [], [], {}
+
+    def corner(i, k, j):
+        if (i, k, j) not in numbers:
+            numbers[i, k, j] = len(vertices)
+            vertices.append((lot * (i - n / 2), levels[k], lot * (j - n / 2)))
+        return numbers[i, k, j]
+
+    for i in range(n):
+        for j in range(n):
+            for k in range(height(i, j)):
+                faces = {(1, 0, 0): [(1, 0, 0), (1, 1, 0), (1, 1, 1), (1, 0, 1)],
+                         (-1, 0, 0): [(0, 0, 0), (0, 0, 1), (0, 1, 1), (0, 1, 0)],
+                         (0, 1, 0): [(0, 1, 0), (0, 1, 1), (1, 1, 1), (1, 1, 0)],
+                         (0, -1, 0): [(0, 0, 0), (1, 0, 0), (1, 0, 1), (0, 0, 1)],
+                         (0, 0, 1): [(0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)],
+                         (0, 0, -1): [(0, 0, 0), (0, 1, 0), (1, 1, 0), (1, 0, 0)]}
+                for (di, dk, dj), face in faces.items():
+                    if not inside(i + di, j + dj, k + dk):
+                        quads.append([corner(i + a, k + b, j + c) for a, b, c in face])
+    write_obj(name, "a castle: towers, walls, court and keep", vertices, quads)
+
+
 if __name__ == "__main__":
     ship()
     citadel()
+    crown()
+    canopy()
+    tube()
+    castle("castle.obj", 8)
+    castle("castle-odd.obj", 7)  # its middle is a lot

@@ -97,7 +97,8 @@ struct SceneShadow {
 };
 
 struct SceneSilhouette {
-  std::string image;
+  std::string image;                    // of both what is wanted and what is not; or else
+  std::string want_image, avoid_image;  // one for each, at least one of them
   std::optional<std::array<std::uint32_t, 2>> size;  // none: the image's own
   SilhouetteForm form = SilhouetteForm::linear;
   VolumeView view = VolumeView::full;

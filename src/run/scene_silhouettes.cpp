@@ -83,15 +83,39 @@ std::string camera_text(const SceneCamera& c) {
   return text;
 }
 
+/// One image, or one of what is wanted, one of what is avoided, or both of these.
+void read_images(TomlSection& s, SceneSilhouette& out) {
+  struct Key {
+    const char* name;
+    std::string SceneSilhouette::*path;
+  };
+  for (const Key& key : {Key{"image", &SceneSilhouette::image}, Key{"want_image", &SceneSilhouette::want_image},
+                         Key{"avoid_image", &SceneSilhouette::avoid_image}}) {
+    const auto path = s.text(key.name);
+    if (path && path->empty()) s.fail(key.name, "must be the path of a PNG, JPG or PFM image, got \"\"");
+    if (path) out.*key.path = *path;
+  }
+  const bool apart = !out.want_image.empty() || !out.avoid_image.empty();
+  if (out.image.empty() && !apart)
+    s.fail("image", "must be the path of a PNG, JPG or PFM image, or want_image and avoid_image must be given");
+  if (!out.image.empty() && apart) s.fail("image", "must not stand beside want_image or avoid_image");
+}
+
+std::string images_text(const SceneSilhouette& s) {
+  std::string text;
+  if (!s.image.empty()) text += fmt::format("image = {}\n", quote_toml(s.image));
+  if (!s.want_image.empty()) text += fmt::format("want_image = {}\n", quote_toml(s.want_image));
+  if (!s.avoid_image.empty()) text += fmt::format("avoid_image = {}\n", quote_toml(s.avoid_image));
+  return text;
+}
+
 }  // namespace
 
 SceneSilhouette read_silhouette(const TomlValue& table, const std::string& file, std::size_t index) {
   const std::string path = fmt::format("silhouette.{}", index);
   TomlSection s(table, file, path);
   SceneSilhouette out;
-  const auto image = s.text("image");
-  if (!image || image->empty()) s.fail("image", "must be the path of a PNG or JPG image");
-  out.image = *image;
+  read_images(s, out);
   if (const auto size = s.wholes("size", 2, 1, Projection::kMostPixels))
     out.size = {static_cast<std::uint32_t>((*size)[0]), static_cast<std::uint32_t>((*size)[1])};
   take(out.form, s.choice("form", kSilhouetteForms));
@@ -110,8 +134,8 @@ SceneSilhouette read_silhouette(const TomlValue& table, const std::string& file,
 
 std::string silhouette_to_toml(const SceneSilhouette& s) {
   std::string text =
-      fmt::format("[[silhouette]]\nimage = {}\nform = \"{}\"\nview = \"{}\"\nwant = {}\navoid = {}\nweight = {}\n",
-                  quote_toml(s.image), word_for(kSilhouetteForms, s.form), word_for(kVolumeViews, s.view),
+      fmt::format("[[silhouette]]\n{}form = \"{}\"\nview = \"{}\"\nwant = {}\navoid = {}\nweight = {}\n",
+                  images_text(s), word_for(kSilhouetteForms, s.form), word_for(kVolumeViews, s.view),
                   format_toml(s.want), format_toml(s.avoid), format_toml(s.weight));
   if (s.size) text += fmt::format("size = [{}, {}]\n", (*s.size)[0], (*s.size)[1]);
   if (!s.shadow) return text + camera_text(s.camera);
@@ -144,16 +168,6 @@ Projection projection_of(const SceneSilhouette& silhouette, std::array<std::uint
   const LookAt look{wide(c.eye), wide(c.at), wide(c.up)};
   if (c.tall) return orthographic(look, *c.tall, size[0], size[1]);
   return perspective(look, c.fov_deg, c.near, size[0], size[1]);
-}
-
-WeightImage weights_of(const Image& image) {
-  std::vector<float> light, alpha;
-  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
-    // Rec. 709 luma of the values as they are stored: a drawing's greys mean what they look like.
-    light.push_back((0.2126f * image.rgba[i] + 0.7152f * image.rgba[i + 1] + 0.0722f * image.rgba[i + 2]) / 255);
-    alpha.push_back(image.rgba[i + 3] / 255.0f);
-  }
-  return weights_from_light(image.width, image.height, light, alpha);
 }
 
 }  // namespace espalier

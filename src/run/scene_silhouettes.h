@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "model/image.h"
 #include "model/mesh.h"
 #include "run/scene.h"
 #include "run/toml_value.h"
@@ -19,8 +18,5 @@ std::string silhouette_to_toml(const SceneSilhouette& silhouette);
 void settle_camera(SceneSilhouette& silhouette, const Bounds& box);
 /// Of settled silhouettes; `size` in pixels. Throws Error.
 Projection projection_of(const SceneSilhouette& silhouette, std::array<std::uint32_t, 2> size);
-
-/// Dark is wanted, light is not, mid-grey and transparent pixels do not matter (score/weight_image.h).
-WeightImage weights_of(const Image& image);
 
 }  // namespace espalier

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "io/file.h"
 #include "run/scene_choices.h"
+#include "run/scene_engines.h"
 #include "run/scene_limits.h"
 #include "run/scene_silhouettes.h"
 #include "run/toml_section.h"
@@ -28,53 +29,6 @@ void read_budget(const TomlValue& table, const std::string& file, SceneBudget& b
   budget.seconds = s.number("seconds", 1e-3, 1e7);
   budget.evaluations = s.whole("evaluations", 1, kMostWhole);
   budget.generations = s.whole("generations", 1, 0xffffffff);
-  s.finish();
-}
-
-// One number, or [from, to].
-void read_initial_length(TomlSection& s, GaSettings& ga) {
-  const TomlValue* value = s.member("initial_length");
-  if (!value) return;
-  if (value->kind == TomlValue::Kind::array) {
-    const auto range = *s.wholes("initial_length", 2, 1, 1'000'000);
-    ga.initial_length_min = static_cast<std::uint32_t>(range[0]);
-    ga.initial_length_max = static_cast<std::uint32_t>(range[1]);
-  } else {
-    ga.initial_length_min = ga.initial_length_max =
-        static_cast<std::uint32_t>(*s.whole("initial_length", 1, 1'000'000));
-  }
-}
-
-void read_search(const TomlValue& table, const std::string& file, SceneSearch& search) {
-  TomlSection s(table, file, "search");
-  static constexpr Choice<int> kEngines[] = {{"ga", 0}};
-  if (s.choice("engine", kEngines)) search.engine = "ga";
-  if (const auto preset = s.text("preset")) {
-    search.preset = *preset;
-    try {
-      search.ga = ga_preset(*preset);
-    } catch (const Error& error) {
-      s.fail("preset", std::string(error.what()).substr(std::string_view("preset ").size()));
-    }
-  }
-  GaSettings& ga = search.ga;
-  take(ga.population, s.whole("population", 2, 1'000'000));
-  take(ga.elitism, s.whole("elitism", 0, 1'000'000));
-  read_initial_length(s, ga);
-  take(ga.mutation, s.number("mutation", 0, 1));
-  take(ga.grow, s.number("grow", 0, 1e6));
-  take(ga.cut, s.number("cut", 0, 1e6));
-  take(ga.alter, s.number("alter", 0, 1e6));
-  take(ga.nudge, s.number("nudge", 0, 1e6));
-  take(ga.first, s.choice("first", kSelectionSchemes));
-  take(ga.second, s.choice("second", kSelectionSchemes));
-  take(ga.tournament_size, s.whole("tournament_size", 1, 10'000));
-  take(ga.crossover, s.choice("crossover", kCompatibilities));
-  take(ga.retries, s.whole("retries", 1, 1000));
-  take(ga.replace_probability, s.number("replace_probability", 0, 1));
-  take(ga.reuse_scores, s.boolean("reuse_scores"));
-  take(ga.restart_after, s.whole("restart_after", 0, 1'000'000'000));
-  take(ga.unique, s.boolean("unique"));
   s.finish();
 }
 
@@ -177,9 +131,12 @@ void check_whole(const TomlValue& root, TomlSection& s, const Scene& scene) {
   try {
     validate(scene.search.ga);
   } catch (const Error& error) {
-    const TomlValue* search = root.find("search");
-    throw Error(fmt::format("{}:{}:{}: search.{}", s.file(), search ? search->line : 1, search ? search->column : 1,
-                            error.what()));
+    // Rules on several settings at once: told where the scene speaks of the search.
+    const TomlValue* const engines = root.find("engine");
+    const TomlValue* const own = engines ? engines->find(scene.search.engine) : nullptr;
+    const TomlValue* const place = own ? own : root.find("search");
+    throw Error(fmt::format("{}:{}:{}: {}.{}", s.file(), place ? place->line : 1, place ? place->column : 1,
+                            own ? "engine." + scene.search.engine : "search", error.what()));
   }
 }
 
@@ -203,7 +160,8 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   if (const TomlValue* t = s.table("attributes")) read_attributes(*t, name, scene.attributes);
   override_attributes(overrides.attributes, scene.attributes);
   if (const TomlValue* t = s.table("budget")) read_budget(*t, name, scene.budget);
-  if (const TomlValue* t = s.table("search")) read_search(*t, name, scene.search);
+  s.table("search"), s.table("engine");
+  read_search(root, name, scene.search);
   if (const TomlValue* t = s.table("limits")) read_limits(*t, name, scene);
   if (const TomlValue* t = s.table("volume")) read_volume(*t, name, scene.volume);
   if (const std::vector<TomlValue>* list = s.tables("silhouette")) {

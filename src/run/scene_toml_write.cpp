@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "run/scene_choices.h"
+#include "run/scene_engines.h"
 #include "run/scene_limits.h"
 #include "run/scene_silhouettes.h"
 #include "run/scene_toml.h"
@@ -27,25 +28,6 @@ void write_budget(SceneWriter& w, const SceneBudget& budget) {
   if (budget.seconds) w.line("seconds = {}", format_toml(*budget.seconds));
   if (budget.evaluations) w.line("evaluations = {}", *budget.evaluations);
   if (budget.generations) w.line("generations = {}", *budget.generations);
-}
-
-void write_search(SceneWriter& w, const SceneSearch& search) {
-  const GaSettings& ga = search.ga;
-  w.line("\n[search]\nengine = {}\npreset = {}", quote_toml(search.engine), quote_toml(search.preset));
-  w.line("population = {}\nelitism = {}", ga.population, ga.elitism);
-  if (ga.initial_length_min == ga.initial_length_max) {
-    w.line("initial_length = {}", ga.initial_length_min);
-  } else {
-    w.line("initial_length = [{}, {}]", ga.initial_length_min, ga.initial_length_max);
-  }
-  w.line("mutation = {}\ngrow = {}\ncut = {}\nalter = {}\nnudge = {}", format_toml(ga.mutation),
-         format_toml(ga.grow), format_toml(ga.cut), format_toml(ga.alter), format_toml(ga.nudge));
-  w.line("first = \"{}\"\nsecond = \"{}\"\ntournament_size = {}", word_for(kSelectionSchemes, ga.first),
-         word_for(kSelectionSchemes, ga.second), ga.tournament_size);
-  w.line(
-      "crossover = \"{}\"\nretries = {}\nreplace_probability = {}\nreuse_scores = {}\nunique = {}\nrestart_after = {}",
-      word_for(kCompatibilities, ga.crossover), ga.retries, format_toml(ga.replace_probability), ga.reuse_scores,
-      ga.unique, ga.restart_after);
 }
 
 void write_volume(SceneWriter& w, const SceneVolume& volume) {
@@ -74,8 +56,8 @@ std::string to_toml(const Scene& scene) {
   if (!scene.attributes.empty()) w.line("\n[attributes]");
   for (const auto& [name, value] : scene.attributes) w.line("{} = {}", quote_toml(name), quote_toml(value));
   write_budget(w, scene.budget);
-  write_search(w, scene.search);
-  w.line("\n{}", limits_to_toml(scene));
+  w.line("\n{}", search_to_toml(scene.search));
+  w.line("{}", limits_to_toml(scene));
   if (!scene.volume.meshes.empty()) write_volume(w, scene.volume);
   for (const SceneSilhouette& silhouette : scene.silhouettes) w.line("\n{}", silhouette_to_toml(silhouette));
   w.line("\n[output]\nkeep = {}\ndistance = {}\npicture = [{}, {}]", scene.output.keep,

@@ -11,9 +11,9 @@
 
 #include "base/error.h"
 #include "base/math.h"
-#include "io/image_import.h"
 #include "run/scene_silhouettes.h"
 #include "run/scene_limits.h"
+#include "run/silhouette_weights.h"
 #include "score/limit_target.h"
 
 namespace espalier {
@@ -90,22 +90,36 @@ Bounds box_of(const Probes& probes) {
   return box;
 }
 
+/// The images of a silhouette, where they lie; the scene names their copies from then on.
+std::vector<ImageLayer> take_images(Setup& setup, const Scene& from, SceneSilhouette& silhouette) {
+  std::vector<ImageLayer> layers;
+  const auto take = [&](std::string& file, ImageMeaning meaning) {
+    if (file.empty()) return;
+    layers.push_back({resolve(from, file), meaning});
+    file = setup.inputs.add_target(layers.back().path);
+  };
+  take(silhouette.image, ImageMeaning::both);
+  take(silhouette.want_image, ImageMeaning::want);
+  take(silhouette.avoid_image, ImageMeaning::avoid);
+  return layers;
+}
+
 void add_silhouettes(Setup& setup, const Scene& from) {
-  FileImageSource images;
   for (std::size_t i = 0; i < from.silhouettes.size(); ++i) {
     SceneSilhouette& scene = setup.scene.silhouettes[i];
-    const std::string path = resolve(from, scene.image);
-    const WeightImage weights = weights_of(images.load(path).image);
-    scene.image = setup.inputs.add_target(path);
+    const std::vector<ImageLayer> layers = take_images(setup, from, scene);
+    const SilhouetteWeights weights = load_weights(layers, scene.size);
     if (!scene.size)
-      scene.size = {std::min(weights.width, Projection::kMostPixels),
-                    std::min(weights.height, Projection::kMostPixels)};
+      scene.size = {std::min(weights.image.width, Projection::kMostPixels),
+                    std::min(weights.image.height, Projection::kMostPixels)};
     settle_camera(scene, setup.stage);
     SilhouetteSettings settings;
-    settings.name = fmt::format("silhouette {}", fs::path(path).filename().string());
+    settings.name = fmt::format("silhouette {}", fs::path(layers[0].path).filename().string());
     settings.projection = projection_of(scene, *scene.size);
-    settings.image = resized(weights, (*scene.size)[0], (*scene.size)[1]);
+    settings.image = resized(weights.image, (*scene.size)[0], (*scene.size)[1]);
     settings.form = scene.form, settings.view = scene.view, settings.want = scene.want, settings.avoid = scene.avoid;
+    // The other form compares with all that is wanted, so that only ratios matter.
+    if (scene.form == SilhouetteForm::linear) settings.want *= weights.full, settings.avoid *= weights.full;
     auto target = std::make_unique<SilhouetteTarget>(std::move(settings), setup.meshes);
     setup.silhouettes.push_back(target.get());
     setup.objective.add(std::move(target), scene.weight);

@@ -161,9 +161,10 @@ Caster make_caster(const MeshRef& ref, const Mesh& mesh) {
   if (caster.kind != Caster::Kind::nothing) return caster;
   set_surface(caster, mesh);
   if (caster.triangles.empty()) return caster;
-  caster.kind = Caster::Kind::convex;
+  caster.kind = ref.kind == MeshKind::box ? Caster::Kind::box : Caster::Kind::convex;
   if (ref.kind == MeshKind::box || wheel || !convex_planes(mesh).empty()) set_bent_edges(caster);
   else if (!set_convex_border(caster)) caster.kind = Caster::Kind::triangles, caster.edges.clear();
+  if (!caster.tapered) caster.folds = FoldMesh(caster.corners, caster.triangles);
   return caster;
 }
 
@@ -180,6 +181,7 @@ bool meets(const Caster& caster, const Instance& instance, const PixelRay& ray) 
     case Caster::Kind::nothing: return false;
     case Caster::Kind::sphere: return to_mesh(instance, ray, o, d) && meets_sphere(o, d, ray.least);
     case Caster::Kind::round: return to_mesh(instance, ray, o, d) && meets_round(o, d, top, ray.least);
+    case Caster::Kind::box:
     case Caster::Kind::convex:
     case Caster::Kind::triangles: break;
   }

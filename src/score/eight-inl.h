@@ -96,7 +96,15 @@ HWY_INLINE Eight<Tag> less(const Eight<Tag>& a, const Eight<Tag>& b) {
   return r;
 }
 
-/// a where the lane of `test`, made by `less`, is set, else b.
+/// All bits set where a and b differ.
+template <class Tag>
+HWY_INLINE Eight<Tag> different(const Eight<Tag>& a, const Eight<Tag>& b) {
+  Eight<Tag> r;
+  for (std::size_t i = 0; i < r.kBlocks; ++i) r.block[i] = hn::VecFromMask(Tag(), hn::Ne(a.block[i], b.block[i]));
+  return r;
+}
+
+/// a where the lane of `test`, made by one of these, is set, else b.
 template <class Tag>
 HWY_INLINE Eight<Tag> choose(const Eight<Tag>& test, const Eight<Tag>& a, const Eight<Tag>& b) {
   Eight<Tag> r;
@@ -140,6 +148,22 @@ HWY_INLINE U8 low_bits_but(const I8& n) {
   return r;
 }
 
+using HalfTag = hn::Rebind<float, DoubleTag>;
+
+/// Four doubles as floats, and back.
+HWY_INLINE void store_floats(const D4& v, float to[4]) {
+  for (std::size_t i = 0; i < D4::kBlocks; ++i) {
+    hn::Store(hn::DemoteTo(HalfTag(), v.block[i]), HalfTag(), to + i * D4::kStep);
+  }
+}
+HWY_INLINE D4 load_doubles(const float from[4]) {
+  D4 r;
+  for (std::size_t i = 0; i < D4::kBlocks; ++i) {
+    r.block[i] = hn::PromoteTo(DoubleTag(), hn::Load(HalfTag(), from + i * D4::kStep));
+  }
+  return r;
+}
+
 HWY_INLINE F8 to_float(const U8& bits) {
   F8 r;
   for (std::size_t i = 0; i < r.kBlocks; ++i) r.block[i] = hn::BitCast(FloatTag(), bits.block[i]);
@@ -149,6 +173,27 @@ HWY_INLINE I8 to_int(const U8& bits) {
   I8 r;
   for (std::size_t i = 0; i < r.kBlocks; ++i) r.block[i] = hn::BitCast(IntTag(), bits.block[i]);
   return r;
+}
+
+HWY_INLINE I8 to_int(const F8& bits) {
+  I8 r;
+  for (std::size_t i = 0; i < F8::kBlocks; ++i) r.block[i] = hn::BitCast(IntTag(), bits.block[i]);
+  return r;
+}
+
+HWY_INLINE U8 bits_of(const F8& a) {
+  U8 r;
+  for (std::size_t i = 0; i < U8::kBlocks; ++i) r.block[i] = hn::BitCast(WordTag(), a.block[i]);
+  return r;
+}
+
+/// Some lane is not all ones.
+HWY_INLINE bool any_but(const U8& a) {
+  alignas(32) std::uint32_t lane[8];
+  a.store(lane);
+  std::uint32_t all = ~0u;
+  for (const std::uint32_t v : lane) all &= v;
+  return all != ~0u;
 }
 
 /// 0, 1, .. 7 plus `first`.

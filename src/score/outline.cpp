@@ -146,13 +146,13 @@ bool OutlineMaker::add_ellipse(const Ball& ball) {
   e.middle = {from.x + x, from.y + y};
   e.half_height = std::sqrt(yy);
   e.per_half_height = 1 / e.half_height;
-  e.slope = xy * e.per_half_height * e.per_half_height;
-  e.half_width = std::sqrt(std::max(0.0, xx - xy * e.slope));
+  e.lean = xy * e.per_half_height;
+  e.half_width = std::sqrt(std::max(0.0, xx - e.lean * e.lean));
   ellipses_.push_back(e);
   const double reach = std::sqrt(xx);
   include({e.middle.x - reach, e.middle.y - e.half_height});
   include({e.middle.x + reach, e.middle.y + e.half_height});
-  return e.half_height < kHugest && reach < kHugest && std::isfinite(e.slope);
+  return e.half_height < kHugest && reach < kHugest && std::isfinite(e.lean);
 }
 
 OutlineMaker::Result OutlineMaker::set_sphere() {
@@ -223,7 +223,7 @@ bool OutlineMaker::finish() {
   for (const Segment& segment : segments_) add_edge(segment.a, segment.b);
   for (const Ellipse& e : ellipses_) {
     outline_.ellipses.push_back({static_cast<float>(e.middle.x - outline_.origin[0]),
-                                 static_cast<float>(e.middle.y - outline_.origin[1]), static_cast<float>(e.slope),
+                                 static_cast<float>(e.middle.y - outline_.origin[1]), static_cast<float>(e.lean),
                                  static_cast<float>(e.half_width), static_cast<float>(e.per_half_height),
                                   static_cast<float>(e.middle.y - e.half_height - outline_.origin[1]),
                                   static_cast<float>(e.middle.y + e.half_height - outline_.origin[1])});
@@ -261,8 +261,7 @@ void OutlineMaker::push_edge(const Pixel& a, const Pixel& b) {
   if (!(tall > 1e-9)) return;  // along a row: its ends are ends of other edges too
   const double ax = a.x - outline_.origin[0], bx = b.x - outline_.origin[0];
   outline_.edges.push_back({static_cast<float>(a.y - outline_.origin[1]), static_cast<float>(b.y - outline_.origin[1]),
-                            static_cast<float>(ax), static_cast<float>((bx - ax) / tall),
-                            static_cast<float>(std::min(ax, bx)), static_cast<float>(std::max(ax, bx))});
+                            static_cast<float>(ax), static_cast<float>((bx - ax) / tall)});
 }
 
 }  // namespace espalier

@@ -11,14 +11,14 @@
 
 namespace espalier {
 
-/// From row y_low to row y_high > y_low; at row y column x + slope (y - y_low), but within x_least..x_most.
+/// From row y_low to row y_high > y_low; at row y column x + slope (y - y_low).
 struct OutlineEdge {
-  float y_low, y_high, x, slope, x_least, x_most;
+  float y_low, y_high, x, slope;
 };
 
-/// At row y + v columns x + slope v +- half_width sqrt(1 - (v * per_half_height)^2), where that is a number.
+/// At row y + t / per_half_height, for t = -1..1, columns x + lean t +- half_width sqrt(1 - t^2).
 struct OutlineEllipse {
-  float x, y, slope, half_width, per_half_height, y_low, y_high;
+  float x, y, lean, half_width, per_half_height, y_low, y_high;
 };
 
 /// Columns and rows of edges and ellipses are relative to `origin`.
@@ -60,7 +60,7 @@ class OutlineMaker {
   };
   struct Ellipse {
     Pixel middle;
-    double slope, half_width, half_height, per_half_height;
+    double lean, half_width, half_height, per_half_height;
   };
 
   void place(const Instance& instance, double top);

@@ -17,15 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace espalier {
 namespace HWY_NAMESPACE {
 
-using HalfTag = hn::Rebind<float, DoubleTag>;
-
 HWY_INLINE D4 number(double v) { return D4::all(v); }
-
-HWY_INLINE void store_floats(const D4& v, float to[4]) {
-  for (std::size_t i = 0; i < D4::kBlocks; ++i) {
-    hn::Store(hn::DemoteTo(HalfTag(), v.block[i]), HalfTag(), to + i * D4::kStep);
-  }
-}
 
 struct D4Linear {
   D4 a, b, c;

@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "base/check.h"
+#include "score/fold_draw-inl.h"
 #include "score/silhouette-inl.h"
 #include "score/silhouette_kernel.h"
 
@@ -24,28 +25,73 @@ void draw_by_pixel(const Caster& caster, const Instance& instance, const Project
         canvas.set(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
 }
 
-void draw_silhouette(const std::vector<Caster>& casters, const Projection& projection,
-                     std::span<const Instance> instances, VolumeView view, SilhouetteScratch& scratch) {
+/// Any part, one at a time.
+void draw_carefully(const Caster& caster, const Instance& instance, const Projection& projection,
+                    SilhouetteScratch& scratch) {
   OutlineMaker& maker = scratch.maker;
-  for (const Instance& instance : instances) {
-    if (!(view == VolumeView::full ? in_full(instance) : in_parts(instance))) continue;
-    const Caster& caster = casters[instance.mesh];
-    switch (maker.set(caster, instance)) {
-      case OutlineMaker::Result::nothing: break;
-      case OutlineMaker::Result::outline: draw_outline(maker.outline(), scratch.canvas); break;
-      case OutlineMaker::Result::triangles:
-        for (std::size_t i = 0; i < maker.triangles(); ++i)
-          if (maker.triangle(i)) draw_outline(maker.outline(), scratch.canvas);
-        break;
-      case OutlineMaker::Result::by_pixel:
-        draw_by_pixel(caster, instance, projection, maker.outline(), scratch.canvas);
-        break;
-    }
+  switch (maker.set(caster, instance)) {
+    case OutlineMaker::Result::nothing: break;
+    case OutlineMaker::Result::outline: draw_outline(maker.outline(), scratch.canvas); break;
+    case OutlineMaker::Result::triangles:
+      for (std::size_t i = 0; i < maker.triangles(); ++i)
+        if (maker.triangle(i)) draw_outline(maker.outline(), scratch.canvas);
+      break;
+    case OutlineMaker::Result::by_pixel:
+      draw_by_pixel(caster, instance, projection, maker.outline(), scratch.canvas);
+      break;
   }
 }
 
+/// Draws the parts of a queue, and empties it.
+void flush(PartQueue& queue, BatchKind kind, const std::vector<Caster>& casters, const Projection& projection,
+           SilhouetteScratch& scratch) {
+  if (queue.count == 0) return;
+  for (int lane = queue.count; lane < 8; ++lane) queue.part[lane] = queue.part[0], queue.top[lane] = 1;
+  OutlineBatch batch;
+  batch.load(projection, queue);
+  switch (kind) {
+    case BatchKind::sphere: batch.set_spheres(); break;
+    case BatchKind::round: batch.set_rounds(); break;
+    case BatchKind::box: batch.set_boxes(); break;
+  }
+  batch.finish(projection);
+  for (int lane = 0; lane < queue.count; ++lane) {
+    const Instance& part = *queue.part[lane];
+    if (batch.ready_[lane] != 0) draw_lane(batch, kind, lane, scratch.canvas);
+    else draw_carefully(casters[part.mesh], part, projection, scratch);
+  }
+  queue.count = 0;
+}
+
+void draw_silhouette(const std::vector<Caster>& casters, const Projection& projection,
+                     std::span<const Instance> instances, VolumeView view, SilhouetteScratch& scratch) {
+  PartQueue queues[3];
+  for (const Instance& instance : instances) {
+    if (!(view == VolumeView::full ? in_full(instance) : in_parts(instance))) continue;
+    const Caster& caster = casters[instance.mesh];
+    BatchKind kind = BatchKind::box;
+    if (caster.kind == Caster::Kind::sphere) {
+      kind = BatchKind::sphere;
+    } else if (caster.kind == Caster::Kind::round) {
+      kind = BatchKind::round;
+    } else if (caster.kind != Caster::Kind::box) {
+      if (caster.folds.faces == 0 ||
+          !draw_folds(caster.folds, instance, projection, scratch.folds, scratch.canvas))
+        draw_carefully(caster, instance, projection, scratch);
+      continue;
+    }
+    PartQueue& queue = queues[static_cast<int>(kind)];
+    queue.part[queue.count] = &instance;
+    queue.top[queue.count] = caster.tapered ? instance.top : 1;
+    if (++queue.count == 8) flush(queue, kind, casters, projection, scratch);
+  }
+  for (int k = 0; k < 3; ++k) flush(queues[k], static_cast<BatchKind>(k), casters, projection, scratch);
+}
+
 void sweep_silhouette(PixelCanvas& canvas, const WeightTiles& weights, SilhouetteCounts& counts) {
-  weights.graded ? sweep_graded(canvas, weights, counts) : sweep_uniform(canvas, weights, counts);
+  if (weights.graded) sweep_graded(canvas, weights, counts);
+  else if (weights.all.wanted + weights.all.free == weights.all.covered) sweep_uniform<true>(canvas, weights, counts);
+  else sweep_uniform<false>(canvas, weights, counts);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,14 +1,15 @@
 #pragma once
-// SilhouetteKernel: the fast way to see how a model's silhouette covers an image of weights. Parts become outlines,
-// eight rows of which are drawn at a time as spans of bits; one sweep adds up the weights of what is covered. Runs on
-// AVX2, SSE4, SSSE3 or without SIMD, chosen at run time, with equal results; reference_silhouette.h is what it is
-// tested against.
+// SilhouetteKernel: the fast way to see how a model's silhouette covers an image of weights. Round parts and boxes
+// become outlines, eight at a time, and eight rows of an outline are drawn at a time as spans of bits; meshes are drawn
+// by the edges at which they fold over. One sweep adds up the weights of what is covered. Runs on AVX2, SSE4, SSSE3 or
+// without SIMD, chosen at run time, with equal results; reference_silhouette.h is what it is tested against.
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "model/model.h"
+#include "score/fold_scratch.h"
 #include "score/outline.h"
 #include "score/pixel_canvas.h"
 #include "score/target.h"
@@ -47,6 +48,7 @@ class SilhouetteScratch final : public TargetScratch {
 
   PixelCanvas canvas;
   OutlineMaker maker;
+  FoldScratch folds;
 };
 
 class SilhouetteKernel {

@@ -36,6 +36,7 @@ const Individual& GaEngine::best() const {
 void GaEngine::step() {
   newcomers_.resize(settings_.population);
   scored_.assign(settings_.population, 0);
+  parents_.assign(settings_.population, Child::kNone);
   const double best_before = steps_ == 0 ? 0 : population_.front().score;
   const bool anew = steps_ == 0 || restart_is_due();
   if (steps_ > 0 && anew) restart();
@@ -53,6 +54,7 @@ void GaEngine::step() {
     }
     score_newcomers();
   }
+  if (settings_.join) join_gains();
   sort_newcomers();
   if (steps_ == 0 || population_.front().score > best_.score) best_ = population_.front();
   stalled_ = anew || population_.front().score > best_before ? 0 : stalled_ + 1;

@@ -2,13 +2,18 @@
 // The genetic algorithm (ShapeGenetics 2017, Algorithms 1 and 2, section 6; Haubenwallner et al. 2016, section 3).
 // A step makes a generation: the best `elitism` individuals unchanged, then pairs of children of selected parents.
 //
+// Beyond the papers, `join` makes one more child per parent: children that became better each in a place of its own are
+// put together (derivation/join.h). A large model improves in many places in one generation, where crossover rarely
+// brings two of them together.
+//
 // Cost per step: population - elitism evaluations (the first: population), and one more for each individual that the
-// scorer finds not acceptable: it is redrawn. An individual that did not change keeps its score. No individual of any
+// scorer finds not acceptable: it is redrawn; with `join` one for each joined child. An individual that did not change keeps its score. No individual of any
 // population is beyond the gene limits or not acceptable.
 
 #include <unordered_set>
 #include <vector>
 
+#include "derivation/join.h"
 #include "search/engine.h"
 #include "search/ga_settings.h"
 #include "search/ga_variation.h"
@@ -60,6 +65,9 @@ class GaEngine final : public Engine {
   void remember_population();
   bool find_known(Individual& individual) const;
   void score_newcomers();
+  void join_gains();
+  void join_of(std::span<const std::size_t> places);
+  void take_changes(std::span<const std::size_t> places);
   void sort_newcomers();
 
   SearchProblem problem_;
@@ -78,6 +86,9 @@ class GaEngine final : public Engine {
   std::vector<Individual> population_;  // sorted, best first
   std::vector<Individual> newcomers_;   // the generation being made, in order of birth
   std::vector<char> scored_;            // per newcomer
+  std::vector<std::uint32_t> parents_;  // per newcomer: the place of its parent in population_, or Child::kNone
+  std::vector<std::size_t> gainers_;    // join only: places of newcomers that are better than their parents
+  std::vector<Change> changes_;         // join only: of one parent's children, pairwise apart
   std::vector<std::size_t> rejected_;   // places of newcomers that were just found not acceptable, ascending
   std::vector<Brood> broods_;           // of the generation being made
   std::vector<std::uint32_t> starts_;   // per place of a population being begun: attempts made

@@ -55,9 +55,9 @@ void GaEngine::redraw_children() {
 void GaEngine::breed(Brood& brood, std::span<const std::size_t> places) {
   std::size_t made = 0;
   for (; brood.attempts < kMostRedraws && made < places.size(); ++brood.attempts) {
-    const Individual& parent1 = population_[first_.pick(brood.choosing)];
-    const Individual& parent2 = population_[second_.pick(brood.choosing)];
-    variation_.vary(parent1, parent2, brood.varying, children_[0], children_[1], counts_);
+    const std::uint32_t first = first_.pick(brood.choosing), second = second_.pick(brood.choosing);
+    variation_.vary(population_[first], population_[second], brood.varying, children_[0], children_[1], counts_);
+    children_[0].parent = first, children_[1].parent = second;
     for (Child& child : children_) {
       if (made == places.size()) break;
       const std::size_t genes = child.individual.derivation.size();
@@ -73,6 +73,7 @@ void GaEngine::breed(Brood& brood, std::span<const std::size_t> places) {
   for (; made < places.size(); ++made) {
     newcomers_[places[made]] = population_[first_.pick(brood.choosing)];
     scored_[places[made]] = 1;
+    parents_[places[made]] = Child::kNone;
     ++counts_.kept_parents;
   }
 }
@@ -81,6 +82,7 @@ void GaEngine::admit(Child& child, std::size_t place) {
   const bool known = child.scored || (settings_.reuse_scores && find_known(child.individual));
   counts_.reused_scores += known;
   scored_[place] = known;
+  parents_[place] = child.parent;
   std::swap(newcomers_[place], child.individual);
 }
 

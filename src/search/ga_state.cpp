@@ -14,17 +14,17 @@ namespace espalier {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x0a41'4750'5345ull;  // the bytes "ESPGA\n"
-constexpr std::uint64_t kStateVersion = 3;
+constexpr std::uint64_t kStateVersion = 4;
 
 // Everything that must be equal for a continued search to be the same search.
 std::string fingerprint(const SearchProblem& problem, const GaSettings& s) {
   return fmt::format("ga {} seed {} lane {} P {} E {} L {}..{} mutation {} {} {} {} select {} {} {} cross {} {} {} "
-                     "genes {}..{} reuse {} nudge {} unique {} restart {} locks {}",
+                     "genes {}..{} reuse {} nudge {} unique {} join {} restart {} locks {}",
                      problem.graph->source_hash, problem.seed, problem.lane, s.population, s.elitism,
                      s.initial_length_min, s.initial_length_max, s.mutation, s.grow, s.cut, s.alter, name_of(s.first),
                      name_of(s.second), s.tournament_size, static_cast<int>(s.crossover), s.retries,
                      s.replace_probability, s.genes.min, s.genes.max, s.reuse_scores,
-                     s.nudge, s.unique, s.restart_after, problem.locks.size());
+                     s.nudge, s.unique, s.join, s.restart_after, problem.locks.size());
 }
 
 void write(StateWriter& writer, const Individual& individual) {

@@ -30,6 +30,9 @@ constexpr Entry kEntries[] = {
     {"rejected starts", &GaCounts::rejected_starts},
     {"copied starts", &GaCounts::copied_starts},
     {"short starts", &GaCounts::short_starts},
+    {"joined children", &GaCounts::joined_children},
+    {"joined changes", &GaCounts::joined_changes},
+    {"better joins", &GaCounts::better_joins},
 };
 static_assert(sizeof(GaCounts) == sizeof(std::uint64_t) * std::size(kEntries));
 

@@ -28,6 +28,9 @@ struct GaCounts {
   std::uint64_t rejected_starts = 0;     // the same of initial individuals
   std::uint64_t copied_starts = 0;       // redrawn in vain: a copy of an acceptable one stands in
   std::uint64_t short_starts = 0;        // initial individuals that could not grow to their length
+  std::uint64_t joined_children = 0;     // children made of what several gained
+  std::uint64_t joined_changes = 0;      // what was joined in these
+  std::uint64_t better_joins = 0;        // of these children, those that are better than each that they were made of
 
   bool operator==(const GaCounts&) const = default;
 };
@@ -38,8 +41,11 @@ GaCounts counts_from(const std::vector<std::uint64_t>& values);
 
 /// A child on its way into the next generation. `scored`: it is a copy of a parent and has its score.
 struct Child {
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
   Individual individual;
   bool scored = false;
+  std::uint32_t parent = kNone;  // its place in the population, of the parent that it was changed from
 };
 
 class GaVariation {

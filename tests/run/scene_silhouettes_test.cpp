@@ -1,6 +1,7 @@
 #include "run/scene_silhouettes.h"
 
 #include <cmath>
+#include <cstring>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -93,6 +94,8 @@ TEST(SceneSilhouettes, BadOnesAreNamed) {
   EXPECT_THAT(error_of(""), HasSubstr("volume must be given, or [[silhouette]]"));
   EXPECT_THAT(error_of("[[silhouette]]\nsize = [3, 3]\n"), HasSubstr("silhouette.0.image must be the path"));
   const std::string start = "[[silhouette]]\nimage = \"a.png\"\n";
+  EXPECT_THAT(error_of(start + "want_image = \"b.png\"\n"), HasSubstr("silhouette.0.image must not stand beside"));
+  EXPECT_THAT(error_of("[[silhouette]]\navoid_image = \"\"\n"), HasSubstr("silhouette.0.avoid_image must be the path"));
   EXPECT_THAT(error_of(start + "want = -1\n"), HasSubstr("silhouette.0.want"));
   EXPECT_THAT(error_of(start + "size = [0, 3]\n"), HasSubstr("silhouette.0.size"));
   EXPECT_THAT(error_of(start + "[silhouette.camera]\nfov_deg = 30\n"), HasSubstr("must have eye"));
@@ -101,6 +104,51 @@ TEST(SceneSilhouettes, BadOnesAreNamed) {
   EXPECT_THAT(error_of(start + "[silhouette.camera]\nfit = true\n[silhouette.shadow]\nsun = [0, -1, 0]\n"),
               HasSubstr("must not stand beside"));
   EXPECT_THAT(error_of(start + "zoom = 3\n"), HasSubstr("zoom"));
+}
+
+/// A weight for every pixel of 4 x 2, by rows from the bottom.
+void write_weights(const TemporaryFolder& folder, const std::string& name, const std::vector<float>& values) {
+  std::string bytes = "Pf\n4 2\n-1\n";
+  const std::size_t header = bytes.size();
+  bytes.resize(header + 4 * values.size());
+  std::memcpy(bytes.data() + header, values.data(), 4 * values.size());
+  write_text(folder / name, bytes);
+}
+
+TEST(SceneSilhouettes, WantedAndAvoidedMayBeTwoImages) {
+  const TemporaryFolder folder;
+  write_tower(folder);
+  write_weights(folder, "keep-off.pfm", {0, 0, 0, 3, 0, 0, 0, 3});
+  const std::string two = "[[silhouette]]\nwant_image = \"tower.png\"\navoid_image = \"keep-off.pfm\"\nsize = [8, 6]\n";
+  const Scene scene = parse_scene(scene_with(two), "s", "");
+  EXPECT_EQ(parse_scene(to_toml(scene), "again", ""), scene);
+  const auto setup = set_up_in(folder, scene_with(two));
+  const SceneSilhouette& settled = setup->scene.silhouettes[0];
+  EXPECT_EQ(settled.image, "");
+  EXPECT_EQ(settled.want_image, "inputs/targets/tower.png");
+  EXPECT_EQ(settled.avoid_image, "inputs/targets/keep-off.pfm");
+  EXPECT_EQ(setup->inputs.files().size(), 3u) << "grammar and both images";
+  const SilhouetteSettings& target = setup->silhouettes[0]->settings();
+  EXPECT_EQ(target.avoid, 3) << "the greatest weight of a file counts as what it is";
+  EXPECT_EQ(target.image.at(7, 3), -WeightImage::kFull);
+  EXPECT_EQ(target.image.at(0, 3), 0);
+  EXPECT_EQ(target.image.at(3, 3), WeightImage::kFull / 3);
+}
+
+TEST(SceneSilhouettes, ARunWithWeightsCanBeReproduced) {
+  const TemporaryFolder folder;
+  write_tower(folder);
+  write_weights(folder, "w.pfm", {-1, 2, 2, -1, -1, 2, 2, -1});
+  write_text(folder / "scene.toml", scene_with("[[silhouette]]\nimage = \"w.pfm\"\n[silhouette.camera]\neye = [0, 2, 9]\n"
+                                               "at = [0, 2, 0]\ntall = 6\n"));
+  AssimpMeshSource source;
+  const auto first = set_up(load_scene(folder / "scene.toml"), source);
+  EXPECT_EQ(first->objective.optimum(), 8) << "four pixels of weight 2";
+  first->inputs.write(folder / "run");
+  write_text(folder / "run/run.toml", to_toml(first->scene));
+  const auto again = set_up(load_scene(folder / "run/run.toml"), source);
+  EXPECT_EQ(again->silhouettes[0]->settings().image.degrees, first->silhouettes[0]->settings().image.degrees);
+  EXPECT_EQ(again->objective.optimum(), 8);
 }
 
 TEST(SceneSilhouettes, CamerasThatFitAreSettledAndSeeTheModels) {

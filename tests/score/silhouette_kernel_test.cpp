@@ -1,5 +1,6 @@
 #include "score/silhouette_kernel.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -181,22 +182,96 @@ TEST(SilhouetteKernel, DrawsFlatAndEdgeOnParts) {
 
 TEST(SilhouetteKernel, EveryPathGivesTheSameCounts) {
   const Shapes shapes;
-  Dice dice(9);
-  const Projection projection = random_projection(dice, 200, 150);
-  const std::vector<Instance> parts = random_parts(dice, shapes, 60, 2.5f);
-  for (const bool graded : {false, true}) {
-    const SilhouetteKernel kernel(projection, shapes.casters, striped(200, 150, graded));
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    Dice dice(9 + i);
+    const Projection projection = random_projection(dice, 200, 150);
+    const std::vector<Instance> parts = random_parts(dice, shapes, 60, i % 2 == 0 ? 2.5f : 6);
+    const SilhouetteKernel kernel(projection, shapes.casters, striped(200, 150, i % 4 < 2));
     SilhouetteScratch scratch(projection);
     std::vector<SilhouetteCounts> counts;
+    std::vector<TileVector<std::uint32_t>> pictures;
     for (const std::string& path : kernel_paths()) {
       use_kernel_path(path);
-      counts.push_back(kernel.count(parts, VolumeView::full, scratch));
+      kernel.draw(parts, VolumeView::full, scratch);
+      pictures.push_back(scratch.canvas.words);
+      counts.push_back(kernel.sweep(scratch));
     }
     use_kernel_path("");
     ASSERT_GE(counts.size(), 2u);
     for (const SilhouetteCounts& other : counts) EXPECT_EQ(other, counts[0]);
+    for (const auto& other : pictures) EXPECT_EQ(other, pictures[0]);
     EXPECT_GT(counts[0].wanted_sum, 0u);
   }
+}
+
+TEST(SilhouetteKernel, TheOrderOfPartsDoesNotMatter) {
+  const Shapes shapes;
+  Dice dice(77);
+  const Projection projection = random_projection(dice, 160, 120);
+  std::vector<Instance> parts = random_parts(dice, shapes, 101, 2.5f);
+  const SilhouetteKernel kernel(projection, shapes.casters, striped(160, 120, true));
+  SilhouetteScratch scratch(projection);
+  kernel.draw(parts, VolumeView::full, scratch);
+  const auto forwards = scratch.canvas.words;
+  kernel.sweep(scratch);
+  std::reverse(parts.begin(), parts.end());
+  kernel.draw(parts, VolumeView::full, scratch);
+  EXPECT_EQ(scratch.canvas.words, forwards);
+}
+
+TEST(SilhouetteKernel, SmallPartsAgreeWithTheReference) {
+  const Shapes shapes;
+  Differences sum;
+  for (std::uint32_t i = 0; i < 60; ++i) {  // of a pixel or a few
+    Dice dice(7000 + i);
+    const Projection projection = random_projection(dice, 120, 90);
+    std::vector<Instance> parts = random_parts(dice, shapes, 60, 2.5f);
+    for (Instance& p : parts) p.model_from_mesh.basis *= dice.between(0.01f, 0.3f);
+    compare(shapes, projection, parts, sum);
+    ASSERT_FALSE(HasFatalFailure()) << "model " << i;
+  }
+  EXPECT_LE(sum.different, 1u) << "of " << sum.pixels;
+}
+
+TEST(SilhouetteKernel, HugePartsAgreeWithTheReference) {
+  const Shapes shapes;
+  Differences sum;
+  for (std::uint32_t i = 0; i < 80; ++i) {  // most reach beyond the image, some by far; flat ones too
+    Dice dice(8000 + i);
+    LookAt look;
+    look.eye = {dice.between(-3, 3), dice.between(-3, 3), 30};
+    const Projection projection = i % 2 == 0 ? perspective(look, 15, 0.5, 150, 130) : orthographic(look, 4, 150, 130);
+    std::vector<Instance> parts = random_parts(dice, shapes, 3, 6);
+    for (Instance& p : parts) {
+      p.model_from_mesh.basis *= i % 3 == 0 ? dice.between(10, 40) : dice.between(1, 10);
+      if (dice.chance(0.3)) p.model_from_mesh.basis[dice.below(3)] *= 1e-3f;
+    }
+    compare(shapes, projection, parts, sum);
+    ASSERT_FALSE(HasFatalFailure()) << "model " << i;
+  }
+  EXPECT_LE(sum.different, 2u) << "of " << sum.pixels;
+}
+
+/// Thin parts, balls as discs, cones as needles or wider above, and mirrored ones. (Round parts without any depth have
+/// no inverse, which the reference needs.)
+TEST(SilhouetteKernel, ThinAndMirroredPartsAgreeWithTheReference) {
+  const Shapes shapes;
+  Differences sum;
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    Dice dice(9000 + i);
+    const Projection projection = random_projection(dice, 110, 100);
+    std::vector<Instance> parts = random_parts(dice, shapes, 10, 2.5f);
+    for (Instance& p : parts) {
+      Vec3& axis = p.model_from_mesh.basis[dice.below(3)];
+      const Caster::Kind kind = shapes.casters[p.mesh].kind;
+      const bool round = kind == Caster::Kind::sphere || kind == Caster::Kind::round;
+      axis *= dice.chance(0.5) ? -1 : round || dice.chance(0.5) ? 1e-3f : 0;
+      if (dice.chance(0.2)) p.top = dice.chance(0.5) ? 12 : -1;
+    }
+    compare(shapes, projection, parts, sum);
+    ASSERT_FALSE(HasFatalFailure()) << "model " << i;
+  }
+  EXPECT_LE(sum.different, 2u) << "of " << sum.pixels;
 }
 
 TEST(SilhouetteKernel, ViewsShowTheirLayers) {

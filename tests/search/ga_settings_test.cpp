@@ -27,7 +27,7 @@ std::string rejection(const std::function<void(GaSettings&)>& spoil) {
 }
 
 TEST(GaSettings, EveryPresetIsValid) {
-  EXPECT_EQ(ga_presets().size(), 5u);
+  EXPECT_EQ(ga_presets().size(), 6u);
   for (const GaPreset& preset : ga_presets()) EXPECT_NO_THROW(validate(ga_preset(preset.name))) << preset.name;
 }
 
