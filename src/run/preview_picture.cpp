@@ -179,13 +179,16 @@ void draw_lines(Picture& sheet, std::uint32_t x, std::uint32_t y, const std::vec
 }
 
 /// What the colours of the samples mean, side by side.
-void draw_key(Picture& sheet, std::uint32_t x, std::uint32_t y) {
-  const std::pair<Mark, const char*> kKey[] = {{Mark::hit, "wanted and covered"},
-                                               {Mark::missed, "wanted, not covered"},
-                                               {Mark::spilled, "covered, to be left free"},
-                                               {Mark::covered, "covered, does not matter"}};
-  for (const auto& [mark, what] : kKey) {
-    draw_lines(sheet, x, y, {{{colour_of(mark)}, what, kInk}});
+void draw_key(Picture& sheet, std::uint32_t x, std::uint32_t y, const Scene& scene) {
+  std::vector<std::pair<Colour, const char*>> key = {{colour_of(Mark::hit), "wanted and covered"},
+                                                     {colour_of(Mark::missed), "wanted, not covered"},
+                                                     {colour_of(Mark::spilled), "covered, to be left free"},
+                                                     {colour_of(Mark::covered), "covered, does not matter"}};
+  for (const SceneMesh& mesh : scene.volume.meshes) {
+    if (key.size() == 4 && mesh.fill < 0) key.emplace_back(colour_of(VoxelMark::struck), "covered, to be avoided");
+  }
+  for (const auto& [colour, what] : key) {
+    draw_lines(sheet, x, y, {{{colour}, what, kInk}});
     x += kCell + kGap;
   }
 }
@@ -226,7 +229,7 @@ Picture preview_picture(const Preview& preview, Executor& executor) {
             kInk.rgb);
   std::uint32_t y = title;
   for (const auto& row : rows) draw_row(sheet, y, row), y += height_of(row) + kGap;
-  draw_key(sheet, kGap, y);
+  draw_key(sheet, kGap, y, setup.scene);
   draw_lines(sheet, kGap, y + kLine, last);
   return sheet;
 }

@@ -92,9 +92,23 @@ Camera shadow_camera(const ShadowPlane& plane, std::span<const Vec3> points, con
   const Vec3 side = Vec3(plane.lit_side()), up = Vec3(plane.up());
   const auto degrees = [](float x, float z) { return std::atan2(x, z) * static_cast<float>(180 / kPi); };
   const bool floor = std::fabs(side.y) > 0.6f;
-  const float azimuth = floor ? degrees(-up.x, -up.z) + 20 : degrees(side.x, side.z) + 30;
-  const float elevation = floor ? (side.y > 0 ? 40.0f : -40.0f) : 14;
+  const float azimuth = floor ? degrees(-up.x, -up.z) + 14 : degrees(side.x, side.z) + 30;
+  const float elevation = floor ? (side.y > 0 ? 46.0f : -46.0f) : 14;
   return frame_points(points, azimuth, elevation, look.width, look.height, kMargin);
+}
+
+/// The size in which the points fill the picture as they are seen, at least half as wide or high as there is room.
+std::array<std::uint32_t, 2> snug(const Camera& camera, std::span<const Vec3> points, const RenderSettings& room) {
+  float low[2] = {1, 1}, high[2] = {-1, -1};
+  for (const Vec3& point : points) {
+    const Vec3 seen = camera.picture_point(point);
+    for (int i = 0; i < 2; ++i) low[i] = std::min(low[i], seen[i]), high[i] = std::max(high[i], seen[i]);
+  }
+  const auto part = [&](std::uint32_t side, int i) {
+    const float share = std::clamp((high[i] - low[i]) / 2 + 2 * kMargin, 0.5f, 1.0f);
+    return std::max(1u, static_cast<std::uint32_t>(static_cast<float>(side) * share));
+  };
+  return {part(room.width, 0), part(room.height, 1)};
 }
 
 void lay_behind(Picture& picture, const Camera& camera, const ShadowPlane& plane, Executor& executor) {
@@ -133,6 +147,9 @@ Picture shadow_view(const Setup& setup, std::size_t index, const Model& model, c
   for (int k = 0; k < 8 && !box.empty(); ++k) {
     points.emplace_back(k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z);
   }
+  const auto size = snug(shadow_camera(plane, points, look), points, look);
+  const auto larger = fitted(size, {look.width, look.height});
+  look.width = larger[0], look.height = larger[1];
   const Camera camera = shadow_camera(plane, points, look);
   look.place = place_of(camera);
   look.ground = false, look.transparent = true;
