@@ -137,8 +137,8 @@ def crown():
 
 def canopy():
     """What grows out of the tube: a stem within it, and a flat crown above it."""
-    profile = [(0.0, -0.8), (0.45, -0.8), (0.45, 2.4)]
-    rise, wide, tall = 4.0, 2.7, 1.35
+    profile = [(0.0, -0.8), (0.45, -0.8), (0.45, 1.7)]
+    rise, wide, tall = 3.1, 2.4, 1.25
     for i in range(2, 20):
         t = math.pi * i / 20
         profile.append((wide * math.sin(t) ** 0.8, rise - tall * math.cos(t)))
@@ -149,7 +149,7 @@ def canopy():
 
 def tube():
     """An upright tube, open at both ends, around the origin."""
-    inner, outer, low, high, sides = 1.15, 1.45, -0.8, 2.2, 48
+    inner, outer, low, high, sides = 1.15, 1.45, -0.8, 1.5, 48
     section = [(inner, low), (outer, low), (outer, high), (inner, high)]
     vertices, quads = [], []
     for k in range(sides):
