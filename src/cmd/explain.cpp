@@ -113,7 +113,8 @@ std::string remarks(const GrammarReport& report, const ExplainRequest& request) 
                         number(100.0 * static_cast<double>(count) / static_cast<double>(s.count)));
   };
   if (s.count < request.samples) {
-    text += fmt::format("{} of {} samples were looked at: together they have over 5 000 000 parts\n", s.count, request.samples);
+    text += fmt::format("{} of {} samples were looked at: together they have over 5 000 000 parts\n", s.count,
+                        request.samples);
   }
   share(s.open, "reached the budget of 10000 genes: the rest of them stays open");
   share(s.thinned, "reached a budget of parts, loops or copies: parts of them are missing");

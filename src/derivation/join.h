@@ -1,6 +1,6 @@
 #pragma once
-// Join: what several children changed in one parent, put together in one derivation. Where children of a large tree each
-// got better in a place of their own, their join is better in all of these at once.
+// Join: what several children changed in one parent, put together in one derivation. Where children of a large tree
+// each got better in a place of their own, their join is better in all of these at once.
 
 #include <cstdint>
 #include <span>

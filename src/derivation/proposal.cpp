@@ -203,7 +203,8 @@ std::optional<double> propose_slot(const GeneratorGraph& graph, Derivation& deri
   const EdgeId edge = rule.slots[variant_of(graph, derivation.genes[place.gene]).slots[place.slot]].edge;
   SlotState& state = derivation.slots[parent.slot + place.slot];
   const GenePosition child = child_in_slot(graph, derivation, parent, place.slot);
-  const SubtreeSlice old = state == SlotState::filled ? subtree_at(graph, derivation, child) : SubtreeSlice{child, 0, 0, 0};
+  const SubtreeSlice old =
+      state == SlotState::filled ? subtree_at(graph, derivation, child) : SubtreeSlice{child, 0, 0, 0};
   const std::size_t rest = derivation.size() - old.genes;
   const bool fill = graph.edges[edge].required ||
                     random.chance(fill_probability(graph.edges[edge], work.path.above.counts()));

@@ -5,9 +5,9 @@
 //     log ( prior(after) q(after -> before) / (prior(before) q(before -> after)) ),
 //
 // so that a chain that accepts with probability min(1, exp(that + beta * (score after - score before))) leaves
-// prior * exp(beta * score) as it is. Nothing where there is no such move, or where the prior throws what was drawn away:
-// the chain then stays where it is, and the derivation may be half changed. No derivation may have open slots. (Talton
-// et al. 2011, sections 5.1 and 5.2; ShapeGenetics 2017, section 7.)
+// prior * exp(beta * score) as it is. Nothing where there is no such move, or where the prior throws what was drawn
+// away: the chain then stays where it is, and the derivation may be half changed. No derivation may have open slots.
+// (Talton et al. 2011, sections 5.1 and 5.2; ShapeGenetics 2017, section 7.)
 //
 // Structure is drawn from the prior, so only the chance of choosing the place is left of the ratio. Draws are uniform
 // in their quantiles and count nothing; those that stay where slot path, rule and variant agree map one to one.
@@ -24,8 +24,8 @@ namespace espalier {
 /// How the place of a proposal is chosen.
 enum class PlaceChoice : std::uint8_t {
   uniform,
-  by_level,  // first a level of the tree, uniformly among those with a candidate, then one of it: the few near the start
-             // are chosen as often as the many at the tips (Talton et al. 2011, "nonterminal selection")
+  by_level,  // first a level of the tree, uniformly among those with a candidate, then one of it: the few near the
+             // start are chosen as often as the many at the tips (Talton et al. 2011, "nonterminal selection")
 };
 
 enum class DrawStep : std::uint8_t {

@@ -64,7 +64,8 @@ void fill(Drawing& drawing, std::string_view pixels) {
   for (std::size_t i = 0; i < count; ++i) {
     T rgba[4];
     std::memcpy(rgba, pixels.data() + i * sizeof rgba, sizeof rgba);
-    const bool middle = sizeof(T) == 1 && rgba[0] == rgba[1] && rgba[1] == rgba[2] && (rgba[0] == 127 || rgba[0] == 128);
+    const bool middle =
+        sizeof(T) == 1 && rgba[0] == rgba[1] && rgba[1] == rgba[2] && (rgba[0] == 127 || rgba[0] == 128);
     drawing.values[i] = middle ? 0.5f : luma(rgba[0], rgba[1], rgba[2]) / kWhite;
     drawing.alpha[i] = rgba[3] / kWhite;
     opaque = opaque && drawing.alpha[i] == 1;

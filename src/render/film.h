@@ -36,8 +36,8 @@ class Film {
   /// Pixels may be put from several threads.
   void put(std::uint32_t x, std::uint32_t y, const Pixel& pixel);
 
-  /// One pass over taps `step` pixels apart, 1, 2 or 4. Far ones count only where the light is all but the same: they take
-  /// away the last mottles and leave shadows alone.
+  /// One pass over taps `step` pixels apart, 1, 2 or 4. Far ones count only where the light is all but the same: they
+  /// take away the last mottles and leave shadows alone.
   void smooth_light(std::uint32_t step, Executor& executor);
   /// With alpha if the stage is clear.
   Picture develop(const View& view, Executor& executor) const;

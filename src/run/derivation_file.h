@@ -37,13 +37,13 @@ LoadedDerivation load_derivation(const std::string& path, const std::string& gra
 /// Where the folder of a run lies, by the provenance of one of its files at `path`.
 std::string settings_folder_of(const std::string& path, const Provenance& provenance);
 
-/// The grammar that the settings of a run or of samples in `folder` name, with its attributes set. `name` stands for the
-/// settings in messages. Throws Error.
+/// The grammar that the settings of a run or of samples in `folder` name, with its attributes set. `name` stands for
+/// the settings in messages. Throws Error.
 LoadedGrammar grammar_of_settings(const std::string& settings, const std::string& name, const std::string& folder,
                                   const std::map<std::string, std::string>& attributes);
 
-/// Provenance of a file at `out` made of a derivation file: the derivation's own as seen from there if it was taken as it
-/// is, with its own grammar and attributes; else the hashes of the grammar's files.
+/// Provenance of a file at `out` made of a derivation file: the derivation's own as seen from there if it was taken as
+/// it is, with its own grammar and attributes; else the hashes of the grammar's files.
 Provenance made_from(const std::string& derivation_path, bool as_it_is, const LoadedGrammar& grammar,
                      const Derivation& derivation, const std::string& out);
 

@@ -68,8 +68,10 @@ std::string find_derivation(const std::string& path) {
       if (is_derivation(candidate, provenance.derivation)) return candidate.string();
     }
   }
-  throw Error(fmt::format("{}: holds no genes, and no {} with the derivation {} that it was made of lies beside it or in "
-                          "{}", path, kEnding, provenance.derivation, run.string()));
+  throw Error(
+      fmt::format("{}: holds no genes, and no {} with the derivation {} that it was made of lies beside it or in "
+                  "{}",
+                  path, kEnding, provenance.derivation, run.string()));
 }
 
 }  // namespace espalier

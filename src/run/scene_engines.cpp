@@ -171,8 +171,8 @@ void validate_search(const SceneSearch& search) {
 
 std::string search_to_toml(const SceneSearch& search) {
   const GaSettings& ga = search.ga;
-  std::string text = fmt::format("[search]\nengine = {}\n\n[engine.ga]\npreset = {}\n", quote_toml(name_of(search.engine)),
-                                 quote_toml(search.preset));
+  std::string text = fmt::format("[search]\nengine = {}\n\n[engine.ga]\npreset = {}\n",
+                                 quote_toml(name_of(search.engine)), quote_toml(search.preset));
   text += fmt::format("population = {}\nelitism = {}\n", ga.population, ga.elitism);
   text += initial_length_line(ga.initial_length_min, ga.initial_length_max);
   text += fmt::format("mutation = {}\ngrow = {}\ncut = {}\nalter = {}\nnudge = {}\n", format_toml(ga.mutation),

@@ -9,13 +9,14 @@
 
 namespace espalier {
 
-/// The engine that the document names, before anything of it is replaced from the command line; "ga" where it names none.
+/// The engine that the document names, before anything of it is replaced from the command line; "ga" where it names
+/// none.
 std::string engine_of_file(const TomlValue& document);
 
 /// Reads `search` and `engine` of the document. What [search] says in the file is meant for the engine that the file
-/// names, what the command line says there for the one that is chosen. A setting of [engine.NAME] wins over the same one
-/// in [search], unless that one was given on the command line. Settings for engines that are not chosen are held to their
-/// rules too. Throws Error.
+/// names, what the command line says there for the one that is chosen. A setting of [engine.NAME] wins over the same
+/// one in [search], unless that one was given on the command line. Settings for engines that are not chosen are held to
+/// their rules too. Throws Error.
 void read_search(const TomlValue& document, const std::string& engine_of_file, const std::string& file,
                  SceneSearch& search);
 

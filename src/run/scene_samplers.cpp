@@ -68,10 +68,11 @@ void read_hybrid(TomlSection& s, HybridSettings& settings) {
 }
 
 std::string to_toml(const SmcSettings& s) {
-  return fmt::format("particles = {}\nschedule = {}\nmost_particles = {}\nsteps = {}\nresampling = \"{}\"\n"
-                     "resample_below = {}\nweight = \"{}\"\n",
-                     s.particles, format_toml(s.schedule), s.most_particles, s.most_steps,
-                     word_for(kResamplings, s.resampling), format_toml(s.resample_below), word_for(kWeights, s.weight)) +
+  return fmt::format(
+             "particles = {}\nschedule = {}\nmost_particles = {}\nsteps = {}\nresampling = \"{}\"\n"
+             "resample_below = {}\nweight = \"{}\"\n",
+             s.particles, format_toml(s.schedule), s.most_particles, s.most_steps, word_for(kResamplings, s.resampling),
+             format_toml(s.resample_below), word_for(kWeights, s.weight)) +
          temperature_line(s.temperature) + initial_length_line(s.initial_length_min, s.initial_length_max);
 }
 

@@ -77,8 +77,8 @@ std::string camera_text(const SceneCamera& c) {
   } else {
     text += fmt::format("eye = {}\nat = {}\n", format_vector(c.eye), format_vector(c.at));
   }
-  text +=
-      fmt::format("up = {}\nfov_deg = {}\nnear = {}\n", format_vector(c.up), format_toml(c.fov_deg), format_toml(c.near));
+  text += fmt::format("up = {}\nfov_deg = {}\nnear = {}\n", format_vector(c.up), format_toml(c.fov_deg),
+                      format_toml(c.near));
   if (c.tall) text += fmt::format("tall = {}\n", format_toml(*c.tall));
   return text;
 }
@@ -141,8 +141,8 @@ std::string silhouette_to_toml(const SceneSilhouette& s) {
   if (!s.shadow) return text + camera_text(s.camera);
   const SceneShadow& w = *s.shadow;
   return text + fmt::format("\n[silhouette.shadow]\n{} = {}\ncentre = {}\nnormal = {}\nup = {}\ntall = {}\n",
-                            w.lamp ? "lamp" : "sun", format_vector(w.light), format_vector(w.centre), format_vector(w.normal),
-                            format_vector(w.up), format_toml(w.tall));
+                            w.lamp ? "lamp" : "sun", format_vector(w.light), format_vector(w.centre),
+                            format_vector(w.normal), format_vector(w.up), format_toml(w.tall));
 }
 
 // As near as it can with the sphere around the box in the picture, and a tenth left free.

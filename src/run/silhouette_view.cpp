@@ -87,7 +87,8 @@ class ShadowPlane {
   DVec3 out_, right_, up_, lit_side_;
 };
 
-/// So that the drawing is upright: from below its lower edge on a floor, from the front of a wall; both a bit from aside.
+/// So that the drawing is upright: from below its lower edge on a floor, from the front of a wall; both a bit from
+/// aside.
 Camera shadow_camera(const ShadowPlane& plane, std::span<const Vec3> points, const RenderSettings& look) {
   const Vec3 side = Vec3(plane.lit_side()), up = Vec3(plane.up());
   const auto degrees = [](float x, float z) { return std::atan2(x, z) * static_cast<float>(180 / kPi); };

@@ -38,7 +38,8 @@ PerMeasure<bool> limited(const Limits& limits) {
   return wanted;
 }
 
-/// Growth never takes genes away; all else may still rise or fall, since what open slots show goes when they are decided.
+/// Growth never takes genes away; all else may still rise or fall, since what open slots show goes when they are
+/// decided.
 bool may_still_be_accepted(Measure measure, const Limit& limit, double value) {
   const bool only_rises = measure == Measure::genes || measure == Measure::depth;
   return !only_rises || !limit.max || value <= *limit.max;

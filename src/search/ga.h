@@ -7,8 +7,8 @@
 // brings two of them together.
 //
 // Cost per step: population - elitism evaluations (the first: population), and one more for each individual that the
-// scorer finds not acceptable: it is redrawn; with `join` one for each joined child. An individual that did not change keeps its score. No individual of any
-// population is beyond the gene limits or not acceptable.
+// scorer finds not acceptable: it is redrawn; with `join` one for each joined child. An individual that did not change
+// keeps its score. No individual of any population is beyond the gene limits or not acceptable.
 
 #include <unordered_set>
 #include <vector>

@@ -49,9 +49,9 @@ GaSettings baseline_2016() {
   return s;
 }
 
-// A tree that follows a drawing (scenes/tree-sketch.toml) wins nearly all by small changes of the best individual, each in
-// a place of its own, and by copies of what was won elsewhere. Share of the drawing after 6 000 evaluations, mean of three
-// seeds: 80 %; without joins 39 %, with mutation 0.9 63 %, with 30 individuals 73 %; ga-local 19 %.
+// A tree that follows a drawing (scenes/tree-sketch.toml) wins nearly all by small changes of the best individual, each
+// in a place of its own, and by copies of what was won elsewhere. Share of the drawing after 6 000 evaluations, mean of
+// three seeds: 80 %; without joins 39 %, with mutation 0.9 63 %, with 30 individuals 73 %; ga-local 19 %.
 GaSettings for_large_models() {
   GaSettings s;
   s.population = 60;

@@ -28,10 +28,10 @@ struct StartResult {
 /// How often a population is begun before what is still missing of it is copied from what was acceptable.
 inline constexpr std::uint32_t kMostStartRounds = 50;
 
-/// The first places are taken by `founders`, which have scores; the rest is grown from one gene, or where the problem has
-/// locks from what these hold of its founders. `epoch` tells populations of one search apart. Where
-/// nothing that was grown is acceptable, places are copied from `stand_ins`. Throws Error where the graph yields no
-/// derivation within the gene limits, or none that is acceptable in kMostStartRounds * population tries.
+/// The first places are taken by `founders`, which have scores; the rest is grown from one gene, or where the problem
+/// has locks from what these hold of its founders. `epoch` tells populations of one search apart. Where nothing that
+/// was grown is acceptable, places are copied from `stand_ins`. Throws Error where the graph yields no derivation
+/// within the gene limits, or none that is acceptable in kMostStartRounds * population tries.
 StartResult make_initial_population(const SearchProblem& problem, const StartSettings& settings, std::uint32_t epoch,
                                     std::span<const Individual> founders, std::span<const Individual> stand_ins);
 

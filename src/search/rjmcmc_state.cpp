@@ -44,7 +44,8 @@ std::vector<NamedCount> RjmcmcEngine::diagnostics() const {
     for (const ProposalCount& one : counts_[rung]) sum.proposed += one.proposed, sum.accepted += one.accepted;
     add(fmt::format("rung {}", rung), sum);
   }
-  for (std::size_t rung = 0; rung < swaps_.size(); ++rung) add(fmt::format("swaps {}-{}", rung, rung + 1), swaps_[rung]);
+  for (std::size_t rung = 0; rung < swaps_.size(); ++rung)
+    add(fmt::format("swaps {}-{}", rung, rung + 1), swaps_[rung]);
   all.push_back({"rejected starts", rejected_starts_});
   return all;
 }

@@ -9,8 +9,8 @@
 // weighted, and the product of mean weights is an unbiased estimate of its integral. Then another sweep begins.
 //
 // What growth cannot mend weighs nothing: more genes than the limits allow, and what the scorer finds not acceptable.
-// Unfinished particles are scored as they stand: open slots show their `otherwise`. Where there are founders, sweeps begin
-// with them instead of one gene, and the rest of the distribution is what grows from there.
+// Unfinished particles are scored as they stand: open slots show their `otherwise`. Where there are founders, sweeps
+// begin with them instead of one gene, and the rest of the distribution is what grows from there.
 
 #include <cstdint>
 #include <vector>

@@ -23,9 +23,10 @@ struct SmcSettings {
   std::uint32_t most_particles = 10'000;  // where the schedule ends, particles..1000000
   std::uint32_t most_steps = 10'000;    // of growth in a sweep; then what is unfinished is closed. 1..1000000
   Resampling resampling = Resampling::systematic;
-  double resample_below = 0.5;          // share of particles: resample where the effective size is below; 1 = every step
+  double resample_below = 0.5;  // share of particles: resample where the effective size is below; 1 = every step
   ParticleWeight weight = ParticleWeight::exponential;
-  std::optional<double> temperature = std::nullopt;  // > 0; none: a hundredth of the optimum, or 1 where that is not above 0
+  /// > 0; none: a hundredth of the optimum, or 1 where that is not above 0.
+  std::optional<double> temperature = std::nullopt;
   std::uint32_t initial_length_min = 50, initial_length_max = 50;  // of the one individual that is there from the start
   GeneLimits genes = {};
 

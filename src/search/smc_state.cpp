@@ -42,7 +42,8 @@ std::vector<NamedCount> SmcEngine::diagnostics() const {
 void SmcEngine::save(std::ostream& out) const {
   StateWriter writer(out);
   write_head(writer, kMagic, kStateVersion, fingerprint("smc", problem_, to_text(settings_)));
-  for (const std::uint64_t value : {steps_, evaluations_, sweep_step_, std::uint64_t{particle_count_}}) writer.u64(value);
+  for (const std::uint64_t value : {steps_, evaluations_, sweep_step_, std::uint64_t{particle_count_}})
+    writer.u64(value);
   for (const double value : {log_evidence_, log_mean_, effective_}) writer.f64(value);
   for (const Entry& entry : kEntries) writer.u64(counts_.*entry.member);
   writer.u64(living_);

@@ -49,7 +49,8 @@ TEST(Adapt, WhatFitsStaysAsItIs) {
 }
 
 /// Draws by gene, of the genes that are at most so deep, in their order.
-std::vector<std::uint32_t> draws_down_to(const GeneratorGraph& graph, const Derivation& derivation, std::uint32_t deepest) {
+std::vector<std::uint32_t> draws_down_to(const GeneratorGraph& graph, const Derivation& derivation,
+                                         std::uint32_t deepest) {
   std::vector<std::uint32_t> draws;
   GeneSweep sweep;
   for (sweep.begin(graph, derivation); sweep.next();) {

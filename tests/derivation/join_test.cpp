@@ -80,7 +80,8 @@ TEST(Join, OfRandomChangesIsWhatMergingTreesGives) {
     for (Derivation& child : children) {
       Change change;
       if (!any_move(graph, child, random) || !find_change(graph, *parent, child, change)) continue;
-      const bool apart = std::all_of(changes.begin(), changes.end(), [&](const Change& c) { return are_apart(c, change); });
+      const bool apart =
+          std::all_of(changes.begin(), changes.end(), [&](const Change& c) { return are_apart(c, change); });
       refused += !apart;
       if (!apart) continue;
       changes.push_back(change);

@@ -129,7 +129,8 @@ rule T when depth < 30 { for i in 0..2 { move x i  maybe 0.9 spawn T } })", 3);
 
 TEST_F(Explain, EnoughPartsAreEnough) {
   const GrammarReport r = explained(
-      "grammar crowd 1 start S rule S { detail D } detail D { for i in 0..60000 { emit box  move x 1  emit box } }", 200);
+      "grammar crowd 1 start S rule S { detail D } detail D { for i in 0..60000 { emit box  move x 1  emit box } }",
+      200);
   EXPECT_EQ(r.samples.count, 50u) << "of 120 002 parts each: over 5 000 000 together";
   EXPECT_EQ(r.samples.details.mean, 120'002);
   EXPECT_EQ(explained(kCoins, 300).samples.count, 300u);

@@ -10,6 +10,7 @@
 #include "run/drawing_fixtures.h"
 #include "run/explanation_json.h"
 #include "run/fixtures.h"
+#include "run/run_folders.h"
 #include "run/report_page.h"
 #include "run/reproduce.h"
 #include "run/scene_toml.h"
@@ -22,46 +23,14 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::pile_scene;
 using testing::read_text;
+using testing::comparable;
 using testing::read_tree;
+using testing::run_in;
 using testing::TemporaryFolder;
 using testing::write_pile;
 using testing::write_text;
 
 namespace fs = std::filesystem;
-
-bool run_in(const TemporaryFolder& folder, const std::string& out, int threads = 1, RunObserver* observer = nullptr,
-            const std::atomic<bool>* stop = nullptr) {
-  AssimpMeshSource source;
-  Scene scene = load_scene(folder / "scene.toml");
-  scene.threads = threads;
-  return run_scene(scene, {folder / out, stop, observer}, source);
-}
-
-std::string without_times(const std::string& name, std::string text) {
-  std::string kept;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) {
-    if (name == "result.json" && (line.find("\"wall_seconds\"") != std::string::npos ||
-                                  line.find("\"evaluations_per_second\"") != std::string::npos)) {
-      continue;
-    }
-    if (name == "convergence.csv") {
-      const std::size_t second = line.find(',', line.find(',') + 1), third = line.find(',', second + 1);
-      line.erase(second, third - second);
-    }
-    kept += line + "\n";
-  }
-  return kept;
-}
-
-std::map<std::string, std::string> comparable(const std::string& folder) {
-  std::map<std::string, std::string> files = read_tree(folder);
-  for (auto& [name, text] : files) {
-    if (name == "result.json" || name == "convergence.csv") text = without_times(name, text);
-    if (name == "report.html") text = testing::without_report_times(text);
-  }
-  return files;
-}
 
 /// Remembers what it was told.
 class Recorder final : public RunObserver {

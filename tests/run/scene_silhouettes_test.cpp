@@ -139,8 +139,9 @@ TEST(SceneSilhouettes, ARunWithWeightsCanBeReproduced) {
   const TemporaryFolder folder;
   write_tower(folder);
   write_weights(folder, "w.pfm", {-1, 2, 2, -1, -1, 2, 2, -1});
-  write_text(folder / "scene.toml", scene_with("[[silhouette]]\nimage = \"w.pfm\"\n[silhouette.camera]\neye = [0, 2, 9]\n"
-                                               "at = [0, 2, 0]\ntall = 6\n"));
+  write_text(folder / "scene.toml",
+             scene_with("[[silhouette]]\nimage = \"w.pfm\"\n[silhouette.camera]\neye = [0, 2, 9]\n"
+                        "at = [0, 2, 0]\ntall = 6\n"));
   AssimpMeshSource source;
   const auto first = set_up(load_scene(folder / "scene.toml"), source);
   EXPECT_EQ(first->objective.optimum(), 8) << "four pixels of weight 2";

@@ -287,7 +287,8 @@ TEST(Scene, AnEngineHasSettingsOfItsOwn) {
   const auto ga = [](const std::string& tables, const SceneOverrides& overrides = {}) {
     return parse_scene(kLeast + tables, "s.toml", "", overrides).search.ga;
   };
-  const std::string both = "[search]\npopulation = 200\nelitism = 5\n[engine.ga]\npreset = \"ga-local\"\npopulation = 40\n";
+  const std::string both =
+      "[search]\npopulation = 200\nelitism = 5\n[engine.ga]\npreset = \"ga-local\"\npopulation = 40\n";
   GaSettings expected = ga_preset("ga-local");
   expected.population = 40, expected.elitism = 5;
   EXPECT_EQ(ga(both), expected) << "what is said for one engine wins over what is said for all";
@@ -301,7 +302,8 @@ TEST(Scene, SettingsWrittenForAnEngineTakeTheSameOverrides) {
   const Scene scene = parse_scene(kFull, "s.toml", "");
   const std::string written = to_toml(scene);
   EXPECT_THAT(written, HasSubstr("[engine.ga]\npreset = \"ga-2016\"\n"));
-  EXPECT_EQ(parse_scene(written, "w", "", {{"search.population=77", "search.engine=ga"}, {}}).search.ga.population, 77u);
+  EXPECT_EQ(parse_scene(written, "w", "", {{"search.population=77", "search.engine=ga"}, {}}).search.ga.population,
+            77u);
 }
 
 TEST(Scene, BadSettingsOfEnginesAreNamed) {
@@ -311,10 +313,14 @@ TEST(Scene, BadSettingsOfEnginesAreNamed) {
               HasSubstr("s.toml:8:14: engine.ga.population must be a whole number from 2 to 1000000, got 1"));
   EXPECT_THAT(error_of(with_line("engine.ga", "populaton = 9")), HasSubstr("did you mean engine.ga.population?"));
   EXPECT_THAT(error_of(with_line("engine.ga", "engine = \"ga\"")), HasSubstr("engine.ga.engine is no setting"));
-  EXPECT_THAT(error_of(with_line("engine.ga", "elitism = 150")), HasSubstr("engine.ga.elitism must be between 0 and 149"));
-  EXPECT_THAT(error_of(with_line("engine.ga", "preset = \"x\"")), HasSubstr("s.toml:8:10: engine.ga.preset must be one of"));
+  EXPECT_THAT(error_of(with_line("engine.ga", "elitism = 150")),
+              HasSubstr("engine.ga.elitism must be between 0 and 149"));
+  EXPECT_THAT(error_of(with_line("engine.ga", "preset = \"x\"")),
+              HasSubstr("s.toml:8:10: engine.ga.preset must be one of"));
   EXPECT_THAT(error_of(with_line("engine", "ga = 3")), HasSubstr("engine.ga must be a table, got 3"));
-  EXPECT_THAT(error_of(kLeast, {{"search.engine=smc2"}, {}}), HasSubstr("search.engine must be one of \"ga\", \"smc\", \"sosmc\", \"rjmcmc\", \"hybrid\", got \"smc2\""));
+  EXPECT_THAT(
+      error_of(kLeast, {{"search.engine=smc2"}, {}}),
+      HasSubstr("search.engine must be one of \"ga\", \"smc\", \"sosmc\", \"rjmcmc\", \"hybrid\", got \"smc2\""));
 }
 
 TEST(Scene, BadOverridesSayWhereTheyCameFrom) {

@@ -46,7 +46,8 @@ TEST(SilhouetteWeights, DarkIsWantedAndLightIsNot) {
 
 TEST(SilhouetteWeights, TwoImagesAddUp) {
   const TemporaryFolder folder;
-  const std::string want = greys(folder, "w.png", {0, 255, 255, 0, 204}), avoid = greys(folder, "a.png", {255, 0, 255, 0, 255});
+  const std::string want = greys(folder, "w.png", {0, 255, 255, 0, 204}),
+                    avoid = greys(folder, "a.png", {255, 0, 255, 0, 255});
   const auto both = load_weights({{want, ImageMeaning::want}, {avoid, ImageMeaning::avoid}}, {});
   EXPECT_THAT(both.image.degrees, ElementsAre(kFull, -kFull, 0, 0, 13107));
   const auto only = load_weights({{want, ImageMeaning::want}}, {});

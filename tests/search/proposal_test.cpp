@@ -1,4 +1,5 @@
-// The proposals of Markov chains, held against enumerated posteriors. (With the search's tests, for the tiny posterior.)
+// The proposals of Markov chains, held against enumerated posteriors. (With the search's tests, for the tiny
+// posterior.)
 #include "derivation/proposal.h"
 
 #include <algorithm>
@@ -47,13 +48,16 @@ struct Chain {
 };
 
 Propose draws(PlaceChoice choice, DrawStep step) {
-  return [=](const GeneratorGraph& g, Derivation& d, RandomStream& r) { return propose_draws(g, d, {}, choice, step, r); };
+  return
+      [=](const GeneratorGraph& g, Derivation& d, RandomStream& r) { return propose_draws(g, d, {}, choice, step, r); };
 }
 Propose jump(PlaceChoice choice, std::uint32_t most = kAll) {
-  return [=](const GeneratorGraph& g, Derivation& d, RandomStream& r) { return propose_jump(g, d, {}, choice, most, r); };
+  return
+      [=](const GeneratorGraph& g, Derivation& d, RandomStream& r) { return propose_jump(g, d, {}, choice, most, r); };
 }
 Propose slot(PlaceChoice choice, std::uint32_t most = kAll) {
-  return [=](const GeneratorGraph& g, Derivation& d, RandomStream& r) { return propose_slot(g, d, {}, choice, most, r); };
+  return
+      [=](const GeneratorGraph& g, Derivation& d, RandomStream& r) { return propose_slot(g, d, {}, choice, most, r); };
 }
 
 /// How far the shares of time that a chain spends in the derivations lie from the posterior: the largest distance in
@@ -122,7 +126,9 @@ TEST_P(Proposals, WithoutTheirRatioTheyWouldNot) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Search, Proposals, ::testing::Values(PlaceChoice::uniform, PlaceChoice::by_level),
-                         [](const auto& choice) { return choice.param == PlaceChoice::uniform ? "Uniform" : "ByLevel"; });
+                         [](const auto& choice) {
+                           return choice.param == PlaceChoice::uniform ? "Uniform" : "ByLevel";
+                         });
 
 // Draws alone: u of one gene under exp(beta u) has mean 1 / (1 - exp(-beta)) - 1 / beta.
 TEST(ProposedDraws, FollowTheirDensity) {

@@ -252,7 +252,8 @@ TEST(SmcSettings, AreChecked) {
   };
   EXPECT_EQ(message([](SmcSettings&) {}), "");
   EXPECT_EQ(message([](SmcSettings& s) { s.particles = 1; }), "particles must be between 2 and 1000000, got 1");
-  EXPECT_EQ(message([](SmcSettings& s) { s.temperature = 0; }), "temperature must be between 1e-12 and 1000000000000, got 0");
+  EXPECT_EQ(message([](SmcSettings& s) { s.temperature = 0; }),
+            "temperature must be between 1e-12 and 1000000000000, got 0");
   EXPECT_THAT(message([](SmcSettings& s) { s.resample_below = NAN; }), HasSubstr("resample_below"));
   EXPECT_THAT(message([](SmcSettings& s) { s.most_particles = 10; }), HasSubstr("most_particles"));
 }

@@ -1,6 +1,6 @@
 #pragma once
-// A grammar so small that its posterior can be written down: prior * exp(beta * score) of every derivation. Samplers are
-// held against it.
+// A grammar so small that its posterior can be written down: prior * exp(beta * score) of every derivation. Samplers
+// are held against it.
 
 #include <cmath>
 #include <map>
@@ -23,9 +23,9 @@ inline std::shared_ptr<const GeneratorGraph> with_bones(GeneratorGraph graph) {
   return std::make_shared<GeneratorGraph>(std::move(graph));
 }
 
-/// Root with two places for a Twig and one for a Bud; a Twig, at most two levels of them, comes plain or forked, and has
-/// a draw; plain ones have a place for a Bud, forked ones two for Twigs too. `most_buds` is a limit of the grammar, 0:
-/// none. Everything has a bone.
+/// Root with two places for a Twig and one for a Bud; a Twig, at most two levels of them, comes plain or forked, and
+/// has a draw; plain ones have a place for a Bud, forked ones two for Twigs too. `most_buds` is a limit of the grammar,
+/// 0: none. Everything has a bone.
 inline std::shared_ptr<const GeneratorGraph> tiny_graph(std::uint32_t most_buds = 0) {
   test::GraphBuilder b("tiny");
   const RuleId root = b.rule("Root"), twig = b.rule("Twig", 1), bud = b.rule("Bud");
