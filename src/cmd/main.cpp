@@ -19,6 +19,7 @@ constexpr const char* kExamples = R"(Examples:
   espalier sample grammars/spaceship.esp -n 16 --seed 3 --out out/ships
   espalier run scenes/spaceship.toml --time 10 --out out/ship
   espalier run scenes/spaceship.toml --evaluations 20000 --set search.population=200
+  espalier preview scenes/tree-heart.toml -o preview.png
   espalier score out/ship/run.toml out/ship/best.derivation.json
   espalier inspect out/ship/best.png
   espalier reproduce out/ship/best.glb
@@ -36,6 +37,7 @@ struct CommandLine {
   ImportOptions import_;
   SampleOptions sample;
   RunVerbOptions run;
+  PreviewOptions preview;
   ScoreOptions score;
   InspectOptions inspect;
   ReproduceOptions reproduce;
@@ -125,6 +127,19 @@ void declare_run(CLI::App& app, CommandLine& line) {
   verb->add_option("--out", o.out, "Folder to write (out/NAME); an earlier run there is replaced");
   verb->add_flag("--json", o.json, "Events as JSON lines");
   verb->callback([&line] { line.verb = [&line] { return run_verb(line.run); }; });
+}
+
+void declare_preview(CLI::App& app, CommandLine& line) {
+  CLI::App* verb = app.add_subcommand("preview", "Show what a scene asks for, and four samples, before any search");
+  PreviewOptions& o = line.preview;
+  verb->add_option("scene", o.scene, "Scene file (.toml)")->required();
+  verb->add_option("-o,--out", o.out, "Picture to write: .png (out/NAME-preview.png)");
+  verb->add_option("--seed", o.seed, "Seed")->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
+  declare_settings(verb, o.settings);
+  declare_attributes(verb, o.attributes);
+  declare_threads(verb, o.threads);
+  verb->add_flag("--json", o.json, "As JSON");
+  verb->callback([&line] { line.verb = [&line] { return preview_verb(line.preview); }; });
 }
 
 void declare_score(CLI::App& app, CommandLine& line) {
@@ -224,6 +239,7 @@ int main_verb(int argc, char** argv) {
   declare_import(app, line);
   declare_sample(app, line);
   declare_run(app, line);
+  declare_preview(app, line);
   declare_score(app, line);
   declare_file_verbs(app, line);
   declare_render(app, line);

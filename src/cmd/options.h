@@ -51,6 +51,15 @@ struct RunVerbOptions {
   bool json = false;
 };
 
+struct PreviewOptions {
+  std::string scene;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> settings, attributes;
+  std::string out;  // empty: out/NAME-preview.png
+  int threads = 0;
+  bool json = false;
+};
+
 struct ScoreOptions {
   std::string scene, derivation;
   std::vector<std::string> settings, attributes;

@@ -147,14 +147,14 @@ Camera frame_turning(std::span<const Vec3> points, float azimuth_deg, float elev
   return turned(frame_points(swept, 0, elevation_deg, lens, margin), Vec3(0), azimuth_deg);
 }
 
-Camera placed_camera(const Vec3& eye, const Vec3& at, const Lens& lens) {
-  const glm::dvec3 ahead = glm::dvec3(at) - glm::dvec3(eye);
-  const double length = glm::length(ahead), level = std::sqrt(ahead.x * ahead.x + ahead.z * ahead.z);
+Camera placed_camera(const Vec3& eye, const Vec3& at, const Lens& lens, const Vec3& up) {
+  const glm::dvec3 ahead = glm::dvec3(at) - glm::dvec3(eye), across = glm::cross(ahead, glm::dvec3(up));
+  const double length = glm::length(ahead), level = glm::length(across);
   CHECK(length > 0);
   Camera camera;
   camera.eye = eye;
   camera.forward = Vec3(ahead / length);
-  if (level > 1e-6 * length) camera.right = Vec3(glm::dvec3(-ahead.z, 0, ahead.x) / level);
+  if (level > 1e-6 * length * glm::length(glm::dvec3(up))) camera.right = Vec3(across / level);
   camera.up = glm::cross(camera.right, camera.forward);
   camera.tan_x = lens.x, camera.tan_y = lens.y, camera.parallel = lens.parallel;
   step_back(camera);

@@ -59,8 +59,8 @@ Camera frame_points(std::span<const Vec3> points, float azimuth_deg, float eleva
 Camera frame_turning(std::span<const Vec3> points, float azimuth_deg, float elevation_deg, const Lens& lens,
                      float margin);
 
-/// At `eye`, with `at` in the middle; y is up. Looking straight down -z is up, straight up +z. They must differ.
-Camera placed_camera(const Vec3& eye, const Vec3& at, const Lens& lens);
+/// At `eye`, with `at` in the middle. They must differ. Where `up` is y, looking straight down -z is up, straight up +z.
+Camera placed_camera(const Vec3& eye, const Vec3& at, const Lens& lens, const Vec3& up = {0, 1, 0});
 
 /// The camera gone round the vertical axis through `centre`.
 Camera turned(const Camera& camera, const Vec3& centre, float degrees);

@@ -153,12 +153,13 @@ Vec3 looked_at(const CameraPlace& place, const Set& set) { return place.at ? set
 Camera placed(const CameraPlace& place, const Set& set, const Lens& lens) {
   Vec3 eye = set.unit_point(place.eye);
   if (eye == looked_at(place, set)) eye.z += 1e-3f;  // in the very middle of the model, or all but
-  return placed_camera(eye, looked_at(place, set), lens);
+  return placed_camera(eye, looked_at(place, set), lens, place.up);
 }
 
 Stage stage_for(const RenderSettings& settings, const Set& set, const Camera& camera) {
   Stage stage = make_stage(set.lowest, camera);
   stage.ground = settings.ground, stage.clear = settings.transparent, stage.background = settings.background;
+  if (settings.to_light) stage.to_key = glm::normalize(*settings.to_light);
   return stage;
 }
 

@@ -21,10 +21,11 @@ struct Picture {
   std::vector<std::uint8_t> alpha = {};  // one per pixel, colours not multiplied by it; empty: all is opaque
 };
 
-/// In model space, m. They must differ.
+/// In model space, m. Looking along `up`, what is up in the picture is anyone's guess.
 struct CameraPlace {
   Vec3 eye{0, 0, 5};
   std::optional<Vec3> at;  // none: the middle of all that is shown
+  Vec3 up{0, 1, 0};
 };
 
 struct RenderSettings {
@@ -39,6 +40,7 @@ struct RenderSettings {
   bool ground = true;                // which shows nothing but shadows
   bool transparent = false;          // alpha instead of a background; the ground's shadows stay
   std::optional<Vec3> background;    // linear light; none: a light backdrop
+  std::optional<Vec3> to_light;      // towards the key light, not 0; none: over the camera's left shoulder
 };
 
 /// A picture of the model; `ghosts` are meshes in model space drawn as translucent shells. Frames what it is given; an

@@ -23,6 +23,7 @@ constexpr double kHindrance = 2;  // a second of painting costs the search up to
 constexpr double kFirst_s = 1;         // a first picture comes soon
 constexpr std::uint32_t kMostAcross = 480;
 constexpr int kSamples = 4;
+constexpr std::uint32_t kLeastAcross = 160;
 
 RenderSettings small_look(std::array<std::uint32_t, 2> size) {
   const std::uint32_t longer = std::max({size[0], size[1], kMostAcross});
@@ -30,6 +31,12 @@ RenderSettings small_look(std::array<std::uint32_t, 2> size) {
   look.width = std::max(1u, size[0] * kMostAcross / longer), look.height = std::max(1u, size[1] * kMostAcross / longer);
   look.samples = kSamples;
   return look;
+}
+
+/// In proportion to the picture, so that they never cost much more.
+OutcomeLook small_outcomes(const RenderSettings& look) {
+  const std::uint32_t across = std::clamp(look.width, kLeastAcross, kMostAcross);
+  return {{look.width * 3 / 4 + 1, look.width * 3 / 4 + 1}, look.samples, across, across * 3 / 2, 1};
 }
 
 /// Computing time so far: CLOCK_THREAD_CPUTIME_ID or CLOCK_PROCESS_CPUTIME_ID.
@@ -64,10 +71,12 @@ class LiveReport::Painter {
     result_.explanation = scorer_.explain(result_.best.derivation);
     expander_.expand(result_.best.derivation, ExpandTo::full, model_);
     const std::vector<Material>& materials = setup_.graph().materials;
-    const Picture picture = render(model_, setup_.meshes, materials, setup_.targets, look_, *executor_);
+    const Surfaces surfaces = materials;
+    const Picture picture = render(model_, setup_.meshes, surfaces, setup_.targets, look_, *executor_);
     const Provenance from = provenance();
     const std::string png = encode_png(picture.width, picture.height, picture.rgb, "espalier", to_json(from));
-    ReportInput input{setup_, result_, from, {"Best so far", "", png}, *targets_, {}, {}, note_};
+    ReportInput input{setup_, result_, from, {"Best so far", "", png}, *targets_, {}, {}, {}, note_};
+    input.outcomes = outcome_pictures({setup_, model_, surfaces}, small_outcomes(look_), *executor_);
     input.model = make_report_model(model_, setup_.meshes, materials, setup_.targets);
     const std::string page = report_page(input);
     write_file((fs::path(folder_) / "best.png").string(), png);

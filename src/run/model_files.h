@@ -31,6 +31,8 @@ class ModelFiles {
   const Model& model_of(const Derivation& derivation);
   /// Of the derivation last written or drawn.
   const Model& model() const { return model_; }
+  /// Its materials with their textures.
+  Surfaces surfaces() { return Surfaces(graph_, model_, textures_); }
 
  private:
   const GeneratorGraph& graph_;

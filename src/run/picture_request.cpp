@@ -48,10 +48,6 @@ void check_turntable(const PictureRequest& r) {
     throw Error(fmt::format("--columns must be at most the {} frames, got {}", r.frames, r.columns));
 }
 
-std::string vector_text(const Vec3& v) {
-  return fmt::format("[{}, {}, {}]", format_toml(v.x), format_toml(v.y), format_toml(v.z));
-}
-
 /// "#rrggbb"; throws Error for anything else.
 Vec3 color_of(const std::string& text) {
   Vec3 color(0);
@@ -80,8 +76,8 @@ void check(const PictureRequest& r) {
 std::string to_toml(const PictureRequest& r) {
   std::string text = fmt::format("size = [{}, {}]\n", r.size[0], r.size[1]);
   if (r.eye) {
-    text += fmt::format("eye = {}\n", vector_text(*r.eye));
-    if (r.at) text += fmt::format("at = {}\n", vector_text(*r.at));
+    text += fmt::format("eye = {}\n", format_vector(*r.eye));
+    if (r.at) text += fmt::format("at = {}\n", format_vector(*r.at));
   } else {
     text += fmt::format("azimuth_deg = {}\nelevation_deg = {}\n", format_toml(r.azimuth_deg),
                         format_toml(r.elevation_deg));

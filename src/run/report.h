@@ -27,6 +27,7 @@ struct ReportInput {
   Provenance provenance;                     // of the best; its `settings` are shown
   ReportPicture best;
   std::vector<ReportPicture> targets;
+  std::vector<ReportPicture> outcomes;       // of the best, as outcome_names() has them; may be empty
   std::vector<std::string> alternatives;     // PNGs, in the order of result.alternatives
   ReportModel model;                         // of the best
   std::optional<LiveNote> live;              // none: the run has ended

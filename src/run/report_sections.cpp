@@ -12,10 +12,22 @@
 namespace espalier {
 namespace {
 
-std::string figure(const ReportPicture& picture) {
-  return fmt::format("<figure>\n<img src=\"{}\" alt=\"{}\">\n<figcaption><b>{}</b> {}</figcaption>\n</figure>\n",
-                     png_url(picture.png), escape_html(picture.title), escape_html(picture.title),
-                     escape_html(picture.caption));
+std::string legend(const std::vector<LegendRow>& rows) {
+  if (rows.empty()) return "";
+  std::string html = "\n<ul class=\"legend\">\n";
+  for (const LegendRow& row : rows) {
+    html += "<li>";
+    for (const Colour& colour : row.swatches) html += fmt::format("<i style=\"background:{}\"></i>", hex_of(colour));
+    html += escape_html(row.text) + "</li>\n";
+  }
+  return html + "</ul>\n";
+}
+
+/// `place`: its class, which the style sheet lays out by; may be empty.
+std::string figure(const ReportPicture& picture, const char* place) {
+  return fmt::format("<figure class=\"{}\">\n<img src=\"{}\" alt=\"{}\">\n<figcaption><b>{}</b> {}{}</figcaption>\n"
+                     "</figure>\n", place, png_url(picture.png), escape_html(picture.title),
+                     escape_html(picture.title), escape_html(picture.caption), legend(picture.legend));
 }
 
 std::string percent(double share) { return fmt::format("{:.1f}&thinsp;%", 100 * share); }
@@ -84,9 +96,18 @@ std::string genes_in_words(const GeneratorGraph& graph, const Derivation& deriva
   return words;
 }
 
+// The best and the volumes, then a row per silhouette: the drawing, what its camera sees, and both in one.
 std::string pictures_html(const ReportInput& input) {
-  std::string html = figure(input.best);
-  for (const ReportPicture& picture : input.targets) html += figure(picture);
+  const std::size_t silhouettes = std::min(input.setup.silhouettes.size(), input.targets.size());
+  const std::size_t volumes = input.targets.size() - silhouettes;
+  std::string html = figure(input.best, silhouettes > 1 && volumes == 0 ? "alone" : "");
+  for (std::size_t i = 2 * silhouettes; i < input.outcomes.size(); ++i) html += figure(input.outcomes[i], "broad");
+  for (std::size_t i = silhouettes; i < input.targets.size(); ++i) html += figure(input.targets[i], "");
+  for (std::size_t i = 0; i < silhouettes; ++i) {
+    html += figure(input.targets[i], silhouettes > 1 || volumes > 0 ? "first" : "");
+    for (std::size_t k = 2 * i; k < std::min(2 * i + 2, input.outcomes.size()); ++k)
+      html += figure(input.outcomes[k], "");
+  }
   return html;
 }
 

@@ -43,6 +43,19 @@ ReportPicture silhouette_picture(const SilhouetteTarget& target) {
 
 }  // namespace
 
+ReportPicture report_picture(const OutcomePicture& drawn) {
+  const Picture& p = drawn.picture;
+  return {drawn.kind == OutcomeKind::view ? "As the target sees it" : "Hit and missed", drawn.caption,
+          encode_png(p.width, p.height, p.rgb, "Title", "espalier: outcome"), drawn.legend};
+}
+
+std::vector<ReportPicture> outcome_pictures(const Outcome& outcome, const OutcomeLook& look, Executor& executor) {
+  std::vector<ReportPicture> pictures;
+  for (const std::string& name : outcome_names(outcome.setup))
+    pictures.push_back(report_picture(draw_outcome(outcome, name, look, executor)));
+  return pictures;
+}
+
 std::vector<ReportPicture> target_pictures(const Setup& setup, const RenderSettings& look, Executor& executor) {
   std::vector<ReportPicture> pictures;
   for (const SilhouetteTarget* target : setup.silhouettes) pictures.push_back(silhouette_picture(*target));

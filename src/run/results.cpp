@@ -67,6 +67,7 @@ Provenance ResultWriter::provenance(std::size_t index, const std::string& settin
 std::vector<std::string> ResultWriter::names() const {
   std::vector<std::string> names = {"best.derivation.json", "result.json", "convergence.csv", kRunMarker,
                                     "inputs",               "best.glb",    "best.obj",        "best.png"};
+  for (const std::string& name : outcome_names(setup_)) names.push_back(name);
   for (const char* ending : {".derivation.json", ".glb", ".png"}) {
     for (std::size_t i = 1; i < size(); ++i) names.push_back(alternative_name(i, ending));
   }
@@ -83,7 +84,7 @@ void ResultWriter::write(const std::string& name, const std::string& path) {
   if (name == "alternatives.png") return write_sheet(path);
   if (name == "report.html") return write_report(path);
   if (name.starts_with("best.")) return write_individual(0, path, provenance(0, "."));
-  CHECK(name.starts_with("alternatives/"));
+  if (!name.starts_with("alternatives/")) return write_outcome(name, path);
   std::error_code ignored;  // a folder that cannot be made shows when the file is written
   fs::create_directories(fs::path(path).parent_path(), ignored);
   const std::size_t index = std::stoul(name.substr(name.find('/') + 1));
@@ -97,6 +98,21 @@ void ResultWriter::write_individual(std::size_t index, const std::string& path, 
     return write_png(path, picture.width, picture.height, picture.rgb, provenance);
   }
   files_.write(individual(index).derivation, path, provenance);
+}
+
+const OutcomePicture& ResultWriter::outcome(const std::string& name) {
+  const auto found = outcomes_.find(name);
+  if (found != outcomes_.end()) return found->second;
+  const Model& model = files_.model_of(result_.best.derivation);
+  const Surfaces surfaces = files_.surfaces();
+  OutcomeLook look;
+  look.view = setup_.scene.output.picture;
+  return outcomes_[name] = draw_outcome({setup_, model, surfaces}, name, look, executor_);
+}
+
+void ResultWriter::write_outcome(const std::string& name, const std::string& path) {
+  const Picture picture = with_words(outcome(name));
+  write_png(path, picture.width, picture.height, picture.rgb, provenance(0, "."));
 }
 
 const Picture& ResultWriter::best_picture() {

@@ -3,10 +3,12 @@
 // and compared. All but the times in result.json, convergence.csv and report.html are the same bytes for the same setup
 // and steps.
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "run/model_files.h"
+#include "run/outcome_pictures.h"
 #include "run/search_loop.h"
 
 namespace espalier {
@@ -39,9 +41,11 @@ class ResultWriter {
 
  private:
   const Picture& best_picture();
+  const OutcomePicture& outcome(const std::string& name);
   const Picture& small_picture(std::size_t index);
   void write_small_picture(std::size_t index, const std::string& path, const Provenance& provenance);
   void write_sheet(const std::string& path);
+  void write_outcome(const std::string& name, const std::string& path);
   void write_report(const std::string& path);
   void write_result(const std::string& path) const;
   void write_convergence(const std::string& path) const;
@@ -52,6 +56,7 @@ class ResultWriter {
   std::string settings_;
   ModelFiles files_;
   Picture best_picture_;                 // empty: not drawn yet
+  std::map<std::string, OutcomePicture> outcomes_;  // by name; as far as they were drawn
   std::vector<Picture> small_pictures_;  // by individual; empty ones are not drawn yet
 };
 

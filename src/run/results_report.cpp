@@ -34,11 +34,16 @@ RenderSettings page_look(std::array<std::uint32_t, 2> size) {
 void ResultWriter::write_report(const std::string& path) {
   const std::size_t genes = result_.best.derivation.size();
   const std::uint32_t across = size() > kMany ? kManyAcross : kAlternativeAcross;
-  ReportInput input{setup_, result_, provenance(0, "."), {}, {}, {}, {}, std::nullopt};
+  ReportInput input{setup_, result_, provenance(0, "."), {}, {}, {}, {}, {}, std::nullopt};
   input.best = {"Best", fmt::format("{} gene{}: {}", genes, genes == 1 ? "" : "s",
                                     genes_in_words(setup_.graph(), result_.best.derivation)),
                 small_png(best_picture(), kMostAcross, "espalier: best")};
   input.targets = target_pictures(setup_, page_look(setup_.scene.output.picture), executor_);
+  for (const std::string& name : outcome_names(setup_)) {
+    OutcomePicture drawn = outcome(name);
+    drawn.picture = shrunk(drawn.picture, kMostAcross);
+    input.outcomes.push_back(report_picture(drawn));
+  }
   for (std::size_t i = 1; i < size(); ++i) {
     input.alternatives.push_back(small_png(small_picture(i), across, "espalier: alternative"));
   }

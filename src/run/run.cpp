@@ -54,12 +54,13 @@ void finish(RunFolder& folder, const std::string& problem) {
                           folder.staging()));
 }
 
-RunEnd end_of(const SearchResult& result, const RunFolder& folder) {
+RunEnd end_of(const SearchResult& result, const Setup& setup, const RunFolder& folder) {
   RunEnd end;
   end.folder = folder.path();
-  for (const char* name : {"report.html", "best.glb", "best.obj", "best.png", "alternatives.png", "result.json"}) {
-    end.files.push_back((fs::path(folder.path()) / name).string());
-  }
+  std::vector<std::string> names = {"report.html", "best.glb", "best.obj", "best.png"};
+  for (const std::string& name : outcome_names(setup)) names.push_back(name);
+  names.insert(names.end(), {"alternatives.png", "result.json"});
+  for (const std::string& name : names) end.files.push_back((fs::path(folder.path()) / name).string());
   end.score = result.best.score;
   end.optimum = result.explanation.optimum;
   end.percent = result.explanation.percent;
@@ -82,7 +83,7 @@ bool run_scene(const Scene& scene, const RunOptions& options, MeshSource& source
   RunFolder folder(options.out, kRunMarker);
   observer.started(start_of(*setup, options, folder, *executor));
   for (const std::string& warning : setup->warnings) observer.warning(warning);
-  for (const std::string& warning : warn_of_reach(*setup)) observer.warning(warning);
+  for (const std::string& warning : warn_of_reach(*setup, find_reach(*setup))) observer.warning(warning);
 
   SearchControl control;
   control.budget = scene.budget;
@@ -102,7 +103,7 @@ bool run_scene(const Scene& scene, const RunOptions& options, MeshSource& source
   observer.writing();
   ResultWriter writer(*setup, *result, *executor);
   finish(folder, write_all(writer, folder.staging()));
-  observer.finished(end_of(*result, folder));
+  observer.finished(end_of(*result, *setup, folder));
   return true;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "base/version.h"
 #include "derivation/moves.h"
@@ -148,7 +149,7 @@ void SampleSet::write_sheet(const std::string& path) {
   std::vector<SheetCell> cells;
   for (std::size_t i = 0; i < size(); ++i) {
     cells.push_back({files_->picture(derivations_[i], request_.cell),
-                     fmt::format("{}  {} genes", i + 1, derivations_[i].size())});
+                     fmt::format("{}  {}", i + 1, counted(derivations_[i].size(), "gene"))});
     if (files_->model().truncated) warnings_.push_back(fmt::format("sample {} is {}", i + 1, kTruncated));
   }
   const Picture sheet = contact_sheet(cells, fmt::format("{}, seed {}", grammar_.graph->name, request_.seed),

@@ -69,24 +69,16 @@ SceneShadow read_shadow(const TomlValue& table, const std::string& file, const s
   return shadow;
 }
 
-std::string vector_text(const Vec3& v) {
-  const auto number = [](float x) {
-    const std::string text = fmt::format("{}", x);  // float's own shortest form comes back as the same float
-    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
-  };
-  return fmt::format("[{}, {}, {}]", number(v.x), number(v.y), number(v.z));
-}
-
 std::string camera_text(const SceneCamera& c) {
   std::string text = "\n[silhouette.camera]\n";
   if (c.fit) {
     text += fmt::format("fit = true\nazimuth_deg = {}\nelevation_deg = {}\n", format_toml(c.azimuth_deg),
                         format_toml(c.elevation_deg));
   } else {
-    text += fmt::format("eye = {}\nat = {}\n", vector_text(c.eye), vector_text(c.at));
+    text += fmt::format("eye = {}\nat = {}\n", format_vector(c.eye), format_vector(c.at));
   }
   text +=
-      fmt::format("up = {}\nfov_deg = {}\nnear = {}\n", vector_text(c.up), format_toml(c.fov_deg), format_toml(c.near));
+      fmt::format("up = {}\nfov_deg = {}\nnear = {}\n", format_vector(c.up), format_toml(c.fov_deg), format_toml(c.near));
   if (c.tall) text += fmt::format("tall = {}\n", format_toml(*c.tall));
   return text;
 }
@@ -149,8 +141,8 @@ std::string silhouette_to_toml(const SceneSilhouette& s) {
   if (!s.shadow) return text + camera_text(s.camera);
   const SceneShadow& w = *s.shadow;
   return text + fmt::format("\n[silhouette.shadow]\n{} = {}\ncentre = {}\nnormal = {}\nup = {}\ntall = {}\n",
-                            w.lamp ? "lamp" : "sun", vector_text(w.light), vector_text(w.centre), vector_text(w.normal),
-                            vector_text(w.up), format_toml(w.tall));
+                            w.lamp ? "lamp" : "sun", format_vector(w.light), format_vector(w.centre), format_vector(w.normal),
+                            format_vector(w.up), format_toml(w.tall));
 }
 
 // As near as it can with the sphere around the box in the picture, and a tenth left free.

@@ -10,15 +10,6 @@
 namespace espalier {
 namespace {
 
-std::string format_vector(const Vec3& v) {
-  // Through float's own shortest form, so that 0.1f reads 0.1 and comes back as the same float.
-  const auto number = [](float x) {
-    std::string text = fmt::format("{}", x);
-    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
-  };
-  return fmt::format("[{}, {}, {}]", number(v.x), number(v.y), number(v.z));
-}
-
 class SceneWriter {
  public:
   template <typename... Args>

@@ -11,7 +11,6 @@
 
 #include "base/error.h"
 #include "base/math.h"
-#include "run/probes.h"
 #include "run/scene_silhouettes.h"
 #include "run/scene_limits.h"
 #include "run/silhouette_weights.h"
@@ -74,9 +73,9 @@ void add_volume(Setup& setup) {
 }
 
 /// The box around most of what the grammar makes: a twentieth of the probes' parts may lie beyond it on each side.
-Bounds box_of_probes(const Setup& setup) {
+Bounds box_of(const Probes& probes) {
   std::vector<float> along[3];
-  for (const Instance& instance : probe_instances(setup.graph(), setup.scene, setup.full())) {
+  for (const Instance& instance : probes.instances) {
     const Vec3& at = instance.model_from_mesh.origin;
     if (!std::isfinite(at.x + at.y + at.z)) continue;
     for (int i = 0; i < 3; ++i) along[i].push_back(at[i]);
@@ -128,8 +127,12 @@ void add_silhouettes(Setup& setup, const Scene& from) {
 }
 
 void build_objective(Setup& setup, const Scene& from) {
-  if (!setup.targets.empty()) add_volume(setup);
-  else setup.stage = box_of_probes(setup);
+  if (setup.targets.empty()) {
+    setup.probes = grow_probes(setup.graph(), setup.scene, setup.full());
+    setup.stage = box_of(*setup.probes);
+  } else {
+    add_volume(setup);
+  }
   add_silhouettes(setup, from);
   const VolumeView view = setup.full() ? VolumeView::full : VolumeView::parts;
   auto limits = std::make_unique<LimitTarget>(limits_of(setup.scene), setup.meshes, view);

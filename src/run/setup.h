@@ -2,10 +2,12 @@
 // Setup: a scene made ready to run: grammar compiled, meshes loaded and placed, objective built, inputs copied.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "run/input_files.h"
+#include "run/probes.h"
 #include "run/scene.h"
 #include "score/combined_objective.h"
 #include "score/silhouette_target.h"
@@ -22,6 +24,7 @@ struct Setup {
   const VolumeTarget* volume = nullptr;  // in the objective, if the scene has one
   std::vector<const SilhouetteTarget*> silhouettes;  // in the objective, order of scene.silhouettes
   Bounds stage;  // where models are expected: the grid's box, or where the silhouettes' probes were
+  std::optional<Probes> probes;  // where setting up had to grow them, until find_reach uses them up
   InputFiles inputs;
   std::vector<std::string> warnings;
 

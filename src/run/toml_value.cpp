@@ -187,4 +187,12 @@ std::string format_toml(double value) {
   return text;
 }
 
+std::string format_vector(const Vec3& v) {
+  const auto number = [](float x) {
+    const std::string text = fmt::format("{}", x);
+    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+  };
+  return fmt::format("[{}, {}, {}]", number(v.x), number(v.y), number(v.z));
+}
+
 }  // namespace espalier

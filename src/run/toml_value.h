@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/vec.h"
+
 namespace espalier {
 
 struct TomlValue {
@@ -42,5 +44,7 @@ void apply_setting(TomlValue& root, std::string_view setting);
 std::string quote_toml(std::string_view text);
 /// A number that reads back as the same double; always with a point or exponent.
 std::string format_toml(double value);
+/// "[x, y, z]", through float's own shortest form, so that 0.1f reads 0.1 and comes back as the same float.
+std::string format_vector(const Vec3& v);
 
 }  // namespace espalier

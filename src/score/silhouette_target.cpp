@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "score/percentage.h"
 #include "score/smootherstep.h"
 
 namespace espalier {
@@ -25,12 +26,6 @@ const SilhouetteSettings& checked(const SilhouetteSettings& settings) {
     if (degree != 0) return settings;
   fail("no pixel of the image matters: all are mid-grey or transparent");
   return settings;
-}
-
-std::string percentage(double part, double of) {
-  if (!(part > 0) || !(of > 0)) return "0 %";
-  const double p = 100 * part / of;
-  return p < 0.5 ? "<1 %" : fmt::format("{:.0f} %", p);
 }
 
 }  // namespace

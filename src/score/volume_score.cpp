@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "score/percentage.h"
 #include "score/smootherstep.h"
 #include "score/volume_target.h"
 
@@ -14,12 +15,6 @@ double in_voxels(std::uint64_t count) { return static_cast<double>(count); }
 
 double overlap_of(const VolumeSettings& settings, const VolumeCounts& counts) {
   return in_voxels(settings.overlap_count == OverlapCount::voxels ? counts.overlap : counts.hits - counts.covered);
-}
-
-std::string percentage(double part, double of) {
-  if (!(part > 0) || !(of > 0)) return "0 %";
-  const double p = 100 * part / of;
-  return p < 0.5 ? "<1 %" : fmt::format("{:.0f} %", p);
 }
 
 }  // namespace

@@ -140,6 +140,14 @@ VolumeCounts VolumeTarget::counts(std::span<const Instance> instances, TargetScr
   return result;
 }
 
+CoveredVoxels VolumeTarget::covered(std::span<const Instance> instances) const {
+  VolumeScratch scratch(grid());
+  parts_->kernel.draw(instances, settings().view, scratch);
+  return {std::move(scratch.canvas.once), std::move(scratch.canvas.twice)};
+}
+
+const BitGrid& VolumeTarget::voxels_of(std::size_t i) const { return parts_->kernel.targets()[i]; }
+
 double VolumeTarget::score(const Derivation&, const Model& model, TargetScratch* scratch) const {
   CHECK(scratch != nullptr);
   auto& memory = static_cast<VolumeScratch&>(*scratch);

@@ -11,6 +11,7 @@
 
 #include "model/mesh.h"
 #include "model/model.h"
+#include "score/bit_grid.h"
 #include "score/target.h"
 #include "score/volume_counts.h"
 #include "score/volume_view.h"
@@ -49,6 +50,11 @@ struct VolumeSettings {
   std::optional<double> outside_weight;  // linear: per voxel outside, added; default: the sum of the spill weights
 };
 
+/// The voxels that a model covers.
+struct CoveredVoxels {
+  BitGrid once, twice;  // by at least so many parts
+};
+
 /// Immutable once made; shared by threads, each with a scratch from make_scratch().
 class VolumeTarget final : public Target {
  public:
@@ -68,6 +74,9 @@ class VolumeTarget final : public Target {
   /// Counts the instances that settings().view shows. No allocation once the scratch and `counts` are warm.
   void counts(std::span<const Instance> instances, TargetScratch& scratch, VolumeCounts& counts) const;
   VolumeCounts counts(std::span<const Instance> instances, TargetScratch& scratch) const;
+  /// For pictures: what is counted, voxel by voxel; and the voxels of target mesh i.
+  CoveredVoxels covered(std::span<const Instance> instances) const;
+  const BitGrid& voxels_of(std::size_t i) const;
 
   double evaluate(const VolumeCounts& counts) const;
   /// The terms whose values add up to evaluate(counts).

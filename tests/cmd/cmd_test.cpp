@@ -50,7 +50,8 @@ class Cmd : public ::testing::Test {
 TEST_F(Cmd, HelpAndVersionSucceed) {
   const ChildResult help = espalier({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* verb : {"check", "sample", "run", "score", "inspect", "reproduce", "export", "render", "graph", "explain"}) {
+  for (const char* verb : {"check", "sample", "run", "score", "inspect", "reproduce", "export", "render", "graph",
+                           "explain", "preview"}) {
     EXPECT_THAT(help.out, HasSubstr(std::string("espalier ") + verb)) << "an example, or the list of verbs";
     EXPECT_EQ(espalier({verb, "--help"}).exit_code, 0) << verb;
   }
@@ -186,7 +187,7 @@ TEST_F(Cmd, InterruptedItLeavesAWholeFolder) {
   const auto result = nlohmann::json::parse(read_text(folder_ / "made/result.json"));
   EXPECT_EQ(result["stopped_by"], "interrupt");
   const std::size_t others = result["alternatives"].size();  // three files each, and a sheet of all
-  EXPECT_EQ(read_tree(folder_ / "made").size(), 11u + 3 * others + (others > 0 ? 1 : 0));
+  EXPECT_EQ(read_tree(folder_ / "made").size(), 12u + 3 * others + (others > 0 ? 1 : 0));
   EXPECT_THAT(leftovers(), ::testing::ElementsAre("made"));
   EXPECT_EQ(espalier({"reproduce", "made/best.glb"}).exit_code, 0);
 }
@@ -243,6 +244,32 @@ TEST_F(Cmd, ScoreInspectReproduceAndExportWorkOnARun) {
   EXPECT_EQ(espalier({"export", "pile.esp", "-o", "ship.stl"}).exit_code, 2);
   write_text(folder_ / "made/inputs/pile.esp", "grammar pile 1\n");
   EXPECT_EQ(espalier({"reproduce", "made/best.png"}).exit_code, 1);
+}
+
+TEST_F(Cmd, PreviewShowsAndTellsBeforeAnySearch) {
+  const ChildResult preview = espalier({"preview", "scene.toml", "-o", "seen/p.png", "--seed", "7"});
+  EXPECT_EQ(preview.exit_code, 0) << preview.err;
+  EXPECT_THAT(preview.out, AllOf(HasSubstr("pile, seed 7"), HasSubstr("tower.obj: "), HasSubstr("sample 4: "),
+                                 HasSubstr("wrote seen/p.png")));
+  EXPECT_TRUE(read_text(folder_ / "seen/p.png").starts_with("\x89PNG"));
+  EXPECT_THAT(espalier({"inspect", "seen/p.png"}).out, HasSubstr("preview"));
+  const ChildResult json = espalier({"preview", "scene.toml", "--json", "--set", "volume.cells=500", "-D", "widest=2"});
+  EXPECT_EQ(json.exit_code, 0) << json.err;
+  const auto told = nlohmann::json::parse(json.out);
+  EXPECT_EQ(told["picture"], "out/scene-preview.png");
+  EXPECT_LT(told["targets"][0]["cells"][1], 30);
+  EXPECT_TRUE(fs::exists(folder_ / "out/scene-preview.png"));
+  const ChildResult away = espalier({"preview", "scene.toml", "--set", "volume.mesh.0.position=[0,0,50]"});
+  EXPECT_EQ(away.exit_code, 0);
+  EXPECT_THAT(away.err, HasSubstr("warning: tower.obj: all of it lies where none"));
+}
+
+TEST_F(Cmd, PreviewRefusesBadInput) {
+  EXPECT_EQ(espalier({"preview", "none.toml", "-o", "p.png"}).exit_code, 2);
+  EXPECT_EQ(espalier({"preview", "scene.toml", "-o", "p.jpg"}).exit_code, 2);
+  EXPECT_EQ(espalier({"preview", "scene.toml", "-o", "scene.toml/p.png"}).exit_code, 2);
+  EXPECT_EQ(espalier({"preview", "scene.toml", "-o", "p.png", "--set", "volume.cell=1"}).exit_code, 2);
+  EXPECT_THAT(leftovers(), IsEmpty());
 }
 
 TEST_F(Cmd, SampleWritesItsFolder) {

@@ -5,6 +5,7 @@
 
 #include "io/mesh_import.h"
 #include "run/browser.h"
+#include "run/drawing_fixtures.h"
 #include "run/run.h"
 #include "run/scene_toml.h"
 
@@ -53,6 +54,30 @@ TEST_F(Browser, ThePageComesUpAndDrawsTheModel) {
   ASSERT_NE(attribute(document, "<div id=\"viewer\"", "data-drawn"), "?");
   EXPECT_GT(std::stoi(attribute(document, "<div id=\"viewer\"", "data-drawn")), 5000);
   EXPECT_THAT(document, HasSubstr("<polyline class=\"best\""));
+}
+
+TEST_F(Browser, ShowsWhatIsHitAndMissedBesideTheTarget) {
+  const testing::TemporaryFolder folder;
+  testing::write_drawing(folder);
+  write_text(folder / "scene.toml", testing::drawing_scene(std::string(testing::kTowerVolume) + testing::kParallel +
+                                                           testing::kFloor));
+  AssimpMeshSource source;
+  ASSERT_TRUE(run_scene(load_scene(folder / "scene.toml"), {folder / "out", nullptr, nullptr}, source));
+  const std::string document = document_of(driven(folder / "out/report.html", R"(
+    const figures = [...document.querySelectorAll(".pictures figure")];
+    seen.push(figures.length, ...figures.map((figure) => figure.querySelector("b").textContent));
+    for (const legend of document.querySelectorAll(".legend")) {
+      const items = [...legend.querySelectorAll("li")];
+      const colours = new Set(items.map((item) => item.querySelector("i") ? getComputedStyle(item.querySelector("i"))
+          .backgroundColor : item.textContent));
+      seen.push(items[0].textContent.split(":")[0], colours.size === items.length);
+    }
+    seen.push(figures.every((figure) => figure.querySelector("img").naturalWidth > 0));
+  )"));
+  EXPECT_EQ(attribute(document, "<html", "data-ready"), "ok");
+  EXPECT_EQ(attribute(document, "<html", "data-seen"),
+            "9;Best;Hit and missed;Target volume;Target silhouette;As the target sees it;Hit and missed;"
+            "Target silhouette;As the target sees it;Hit and missed;filled;true;hit;true;hit;true;true");
 }
 
 TEST_F(Browser, WithoutWebGlThePictureStandsThere) {

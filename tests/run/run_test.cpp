@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "io/mesh_import.h"
 #include "run/derivation_file.h"
+#include "run/drawing_fixtures.h"
 #include "run/explanation_json.h"
 #include "run/fixtures.h"
 #include "run/report_page.h"
@@ -90,7 +91,7 @@ TEST(Run, LeavesAWholeFolder) {
                                  "alternatives/01.png", "alternatives/02.derivation.json", "alternatives/02.glb",
                                  "alternatives/02.png", "best.derivation.json", "best.glb", "best.mtl", "best.obj",
                                  "best.png", "convergence.csv", "inputs/pile.esp", "inputs/targets/tower.obj",
-                                 "report.html", "result.json", "run.toml"));
+                                 "report.html", "result.json", "run.toml", "volume.png"));
   const auto result = nlohmann::json::parse(read_text(folder / "out/result.json"));
   ASSERT_EQ(recorder.ends.size(), 1u);
   EXPECT_EQ(result["score"], recorder.ends[0].score);
@@ -251,11 +252,30 @@ TEST(Run, EveryFileIsReproducedIdentically) {
   const auto executor = make_serial_executor();
   for (const char* name : {"best.glb", "best.obj", "best.mtl", "best.png", "best.derivation.json", "result.json",
                            "alternatives.png", "alternatives/01.glb", "alternatives/02.png",
-                           "alternatives/02.derivation.json"}) {
+                           "alternatives/02.derivation.json", "volume.png"}) {
     const ReproduceReport report = reproduce(folder / "out/" + name, "", source, *executor);
     EXPECT_TRUE(report.identical()) << name << ": " << ::testing::PrintToString(report.differences);
     EXPECT_EQ(report.same.size(), 4u) << name;  // two inputs, derivation, bytes
   }
+}
+
+TEST(Run, PicturesOfTargetsAreReproducedIdentically) {
+  const TemporaryFolder folder;
+  testing::write_drawing(folder);
+  write_text(folder / "scene.toml",
+             testing::drawing_scene(std::string(testing::kTowerVolume) + testing::kPinhole + testing::kWall));
+  ASSERT_TRUE(run_in(folder, "out", 2));
+  AssimpMeshSource source;
+  const auto executor = make_serial_executor();
+  for (const char* name : {"view-01.png", "view-02.png", "silhouette-01.png", "silhouette-02.png", "volume.png"}) {
+    const ReproduceReport report = reproduce(folder / "out/" + name, "", source, *executor);
+    EXPECT_TRUE(report.identical()) << name << ": " << ::testing::PrintToString(report.differences);
+  }
+  write_text(folder / "scene.toml", testing::drawing_scene(testing::kParallel));
+  ASSERT_TRUE(run_in(folder, "one"));
+  EXPECT_TRUE(fs::exists(folder / "one/view.png"));
+  EXPECT_TRUE(fs::exists(folder / "one/silhouette.png"));
+  EXPECT_FALSE(fs::exists(folder / "one/volume.png"));
 }
 
 TEST(Reproduce, TellsWhatDiffers) {

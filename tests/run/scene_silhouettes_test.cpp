@@ -13,6 +13,7 @@
 #include "run/fixtures.h"
 #include "run/probes.h"
 #include "run/run.h"
+#include "run/setup.h"
 #include "run/scene_scorer.h"
 #include "run/scene_toml.h"
 
@@ -157,10 +158,11 @@ TEST(SceneSilhouettes, CamerasThatFitAreSettledAndSeeTheModels) {
   ASSERT_EQ(setup->silhouettes.size(), 1u);
   EXPECT_FALSE(setup->scene.silhouettes[0].camera.fit) << "written out, so that a run can be repeated";
   EXPECT_EQ(setup->scene.silhouettes[0].image, "inputs/targets/tower.png");
-  EXPECT_TRUE(warn_of_reach(*setup).empty());
+  EXPECT_TRUE(warn_of_reach(*setup, find_reach(*setup)).empty());
   const auto scratch = setup->silhouettes[0]->make_scratch();
-  const auto probes = probe_instances(setup->graph(), setup->scene, true);
-  EXPECT_GT(setup->silhouettes[0]->counts(probes, *scratch).covered, 100u);
+  const Probes probes = grow_probes(setup->graph(), setup->scene, true);
+  EXPECT_EQ(probes.models, 256u);
+  EXPECT_GT(setup->silhouettes[0]->counts(probes.instances, *scratch).covered, 100u);
 }
 
 TEST(SceneSilhouettes, ACameraThatLooksAwayIsWarnedOf) {
@@ -170,7 +172,7 @@ TEST(SceneSilhouettes, ACameraThatLooksAwayIsWarnedOf) {
       folder,
       scene_with(
           "[[silhouette]]\nimage = \"tower.png\"\n[silhouette.camera]\neye = [0, 500, 900]\nat = [0, 500, 0]\n"));
-  EXPECT_THAT(warn_of_reach(*setup), ::testing::ElementsAre(HasSubstr("does the camera look")));
+  EXPECT_THAT(warn_of_reach(*setup, find_reach(*setup)), ::testing::ElementsAre(HasSubstr("does the camera look")));
 }
 
 TEST(SceneSilhouettes, MissingAndMeaninglessImagesAreNamed) {

@@ -198,19 +198,21 @@ TEST(SceneScorer, ScoresTheSameOnOneAndManyWorkers) {
   for (std::size_t i = 0; i < 50; ++i) EXPECT_EQ(one.explain(derivations[i]).score, a[i]);
 }
 
+std::vector<std::string> reach_warnings(Setup& setup) { return warn_of_reach(setup, find_reach(setup)); }
+
 TEST(Reach, WarnsOfATargetThatTheGrammarDoesNotGetTo) {
   const TemporaryFolder folder;
   write_pile(folder);
-  EXPECT_THAT(warn_of_reach(*set_up_in(folder)), IsEmpty());
-  const auto far = warn_of_reach(*set_up_in(folder, {"volume.mesh.0.position=[0, 0, 50]"}));
+  EXPECT_THAT(reach_warnings(*set_up_in(folder)), IsEmpty());
+  const auto far = reach_warnings(*set_up_in(folder, {"volume.mesh.0.position=[0, 0, 50]"}));
   ASSERT_EQ(far.size(), 1u);
   EXPECT_THAT(far[0], ::testing::AllOf(HasSubstr("tower.obj: all of it"), HasSubstr("256 models")));
-  const auto large = warn_of_reach(*set_up_in(folder, {"volume.mesh.0.scale=[1, 1, 20]"}));
+  const auto large = reach_warnings(*set_up_in(folder, {"volume.mesh.0.scale=[1, 1, 20]"}));
   ASSERT_EQ(large.size(), 1u);
   EXPECT_THAT(large[0], HasSubstr(" % of it"));
   // What shall be avoided may well be out of reach.
   const auto avoided = set_up_in(folder, {"volume.mesh.0.position=[0, 0, 50]", "volume.mesh.0.fill=-1"});
-  EXPECT_THAT(warn_of_reach(*avoided), IsEmpty());
+  EXPECT_THAT(reach_warnings(*avoided), IsEmpty());
 }
 
 }  // namespace
