@@ -127,7 +127,7 @@ Provenance preview_provenance(const Preview& preview) {
   p.version = kVersion;
   p.made_by = "preview";
   p.seed = setup.scene.seed;
-  p.engine = setup.scene.search.engine;
+  p.engine = name_of(setup.scene.search.engine);
   p.inputs = setup.inputs.hashes();
   p.optimum = setup.objective.optimum();
   return p;

@@ -43,7 +43,7 @@ class DerivationDiagram : public ::testing::Test {
   Derivation grown(std::uint32_t genes) {
     RandomStream random({3, Purpose::test, 0, 0, 0});
     Derivation d = seedling(*graph_, random);
-    while (d.size() < genes && grow_open_slot(*graph_, d, random)) {}
+    while (d.size() < genes && grow_open_slot(*graph_, d, random) == GrowthStep::grown) {}
     return d;
   }
   std::string svg(const Derivation& d) {
