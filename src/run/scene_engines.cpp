@@ -105,11 +105,27 @@ void check_names(const TomlValue& engines, const std::string& file) {
   }
 }
 
-/// A sampler that says nothing of first individuals makes them as the genetic algorithm does.
+// While settings are read, 0 stands for what is not given and follows from others: first individuals are made as the
+// genetic algorithm makes them, and numbers of particles and chains draw others along.
+void unsettle(SceneSearch& search) {
+  for (SmcSettings* smc : {&search.smc, &search.sosmc}) smc->initial_length_min = smc->most_particles = 0;
+  search.rjmcmc.initial_length_min = search.rjmcmc.temperatures = 0;
+}
+
 template <typename Settings>
 void settle_lengths(const GaSettings& ga, Settings& settings) {
   if (settings.initial_length_min > 0) return;
   settings.initial_length_min = ga.initial_length_min, settings.initial_length_max = ga.initial_length_max;
+}
+
+void settle(SceneSearch& search) {
+  for (SmcSettings* smc : {&search.smc, &search.sosmc}) {
+    settle_lengths(search.ga, *smc);
+    if (smc->most_particles == 0) smc->most_particles = std::max(SmcSettings().most_particles, smc->particles);
+  }
+  settle_lengths(search.ga, search.rjmcmc);
+  std::uint32_t& temperatures = search.rjmcmc.temperatures;
+  if (temperatures == 0) temperatures = std::min(RjmcmcSettings().temperatures, search.rjmcmc.chains);
 }
 
 }  // namespace
@@ -142,15 +158,12 @@ void read_search(const TomlValue& document, const std::string& engine_of_file, c
     s.member("preset");
     read_ga(s, search.ga);
   });
-  for (SmcSettings* smc : {&search.smc, &search.sosmc}) smc->initial_length_min = 0;
-  search.rjmcmc.initial_length_min = 0;
+  unsettle(search);
   read_settings(sources("smc"), file, [&](TomlSection& s) { read_smc(s, search.smc); });
   read_settings(sources("sosmc"), file, [&](TomlSection& s) { read_smc(s, search.sosmc); });
   read_settings(sources("rjmcmc"), file, [&](TomlSection& s) { read_rjmcmc(s, search.rjmcmc); });
   read_settings(sources("hybrid"), file, [&](TomlSection& s) { read_hybrid(s, search.hybrid); });
-  settle_lengths(search.ga, search.smc);
-  settle_lengths(search.ga, search.sosmc);
-  settle_lengths(search.ga, search.rjmcmc);
+  settle(search);
 }
 
 void share_limits(SceneSearch& search) {

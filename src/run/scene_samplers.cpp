@@ -31,9 +31,6 @@ void read_smc(TomlSection& s, SmcSettings& settings) {
   take(settings.particles, s.whole("particles", 2, 1'000'000));
   take(settings.schedule, s.number("schedule", 1, 100));
   take(settings.most_particles, s.whole("most_particles", 2, 1'000'000));
-  if (settings.most_particles < settings.particles && !s.member("most_particles")) {
-    settings.most_particles = settings.particles;
-  }
   take(settings.most_steps, s.whole("steps", 1, 1'000'000));
   take(settings.resampling, s.choice("resampling", kResamplings));
   take(settings.resample_below, s.number("resample_below", 0, 1));
@@ -45,7 +42,6 @@ void read_smc(TomlSection& s, SmcSettings& settings) {
 void read_rjmcmc(TomlSection& s, RjmcmcSettings& settings) {
   take(settings.chains, s.whole("chains", 1, 100'000));
   take(settings.temperatures, s.whole("temperatures", 1, 100'000));
-  if (settings.temperatures > settings.chains && !s.member("temperatures")) settings.temperatures = settings.chains;
   take(settings.heat, s.number("heat", 1, 1e6));
   take(settings.temperature, s.number("temperature", 1e-12, 1e12));
   take(settings.anneal, s.number("anneal", 1, 100));
