@@ -6,16 +6,12 @@
 #include <numeric>
 
 #include "base/check.h"
+#include "search/require.h"
 
 namespace espalier {
 namespace {
 
 constexpr double kNotAcceptable = -std::numeric_limits<double>::infinity();
-
-GaSettings validated(const GaSettings& settings) {
-  validate(settings);
-  return settings;
-}
 
 }  // namespace
 

@@ -24,11 +24,6 @@ constexpr std::uint64_t kMagic = 0x0a59'4850'5345ull;  // the bytes "ESPHY\n"
 constexpr std::uint64_t kStateVersion = 1;
 constexpr const char* kStages[] = {"sosmc", "ga", "rjmcmc"};
 
-HybridSettings validated(const HybridSettings& settings) {
-  validate(settings);
-  return settings;
-}
-
 std::uint64_t count_of(const Engine& engine, std::string_view name) {
   for (const NamedCount& count : engine.diagnostics()) {
     if (count.name == name) return count.value;

@@ -18,6 +18,13 @@ void require_range(std::string_view name, T value, T low, T high) {
   }
 }
 
+/// The settings, if `validate` accepts them.
+template <typename Settings>
+const Settings& validated(const Settings& settings) {
+  validate(settings);
+  return settings;
+}
+
 /// Limits on genes, and lengths of first individuals that may lie within them.
 inline void require_lengths(std::uint32_t shortest, std::uint32_t longest, const GeneLimits& genes) {
   require_range("genes.min", genes.min, 1u, 1'000'000u);

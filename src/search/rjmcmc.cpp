@@ -10,21 +10,13 @@
 #include "base/natural_log.h"
 #include "derivation/nudge.h"
 #include "search/initial_population.h"
+#include "search/require.h"
+#include "search/temperature.h"
 
 namespace espalier {
 namespace {
 
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
-
-RjmcmcSettings validated(const RjmcmcSettings& settings) {
-  validate(settings);
-  return settings;
-}
-
-double beta_of(const RjmcmcSettings& settings, double optimum) {
-  if (settings.temperature) return 1 / *settings.temperature;
-  return optimum > 0 && std::isfinite(optimum) ? 1000 / optimum : 1;
-}
 
 /// Chance that a proposal drawn from the prior is accepted.
 double acceptance(double beta, double score_before, double score_after) {
@@ -36,7 +28,7 @@ double acceptance(double beta, double score_before, double score_after) {
 RjmcmcEngine::RjmcmcEngine(const SearchProblem& problem, const RjmcmcSettings& settings)
     : problem_(problem), settings_(validated(settings)) {
   CHECK(problem_.scorer != nullptr);
-  beta_ = beta_of(settings_, problem_.scorer->optimum());
+  beta_ = inverse_temperature(settings_.temperature, problem_.scorer->optimum(), 1000);
   counts_.resize(settings_.temperatures);
   swaps_.resize(settings_.temperatures - 1);
 }

@@ -12,28 +12,20 @@
 #include "base/natural_log.h"
 #include "derivation/strip.h"
 #include "search/initial_population.h"
+#include "search/require.h"
+#include "search/temperature.h"
 
 namespace espalier {
 namespace {
 
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
-SmcSettings validated(const SmcSettings& settings) {
-  validate(settings);
-  return settings;
-}
-
-double beta_of(const SmcSettings& settings, double optimum) {
-  if (settings.temperature) return 1 / *settings.temperature;
-  return optimum > 0 && std::isfinite(optimum) ? 100 / optimum : 1;
-}
-
 }  // namespace
 
 SmcEngine::SmcEngine(const SearchProblem& problem, const SmcSettings& settings)
     : problem_(problem), settings_(validated(settings)) {
   CHECK(problem_.scorer != nullptr);
-  beta_ = beta_of(settings_, problem_.scorer->optimum());
+  beta_ = inverse_temperature(settings_.temperature, problem_.scorer->optimum(), 100);
   particle_count_ = settings_.particles;
 }
 

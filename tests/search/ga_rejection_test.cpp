@@ -106,15 +106,7 @@ TEST(GaRejection, SavedAndLoadedGoesOnAsIfNeverStopped) {
   GaSettings settings = small_settings();
   settings.unique = settings.reuse_scores = true;
   settings.restart_after = 3;
-  for (const int before : {0, 1, 7, 20}) {
-    Bench whole(few_buds, settings), first(few_buds, settings), second(few_buds, settings);
-    log_of(whole.engine, before);
-    log_of(first.engine, before);
-    std::stringstream state;
-    first.engine.save(state);
-    second.engine.load(state);
-    EXPECT_EQ(log_of(second.engine, 15), log_of(whole.engine, 15)) << "after " << before;
-  }
+  testing::expect_saved_states_go_on([&] { return std::make_unique<Bench>(few_buds, settings); }, {0, 1, 7, 20}, 15);
 }
 
 TEST(GaRejection, RareStartsAreCopiedToFillThePopulation) {

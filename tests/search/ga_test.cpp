@@ -244,29 +244,12 @@ TEST(Ga, BadSettingsAreRefused) {
 }
 
 TEST(GaState, SavedAndLoadedGoesOnAsIfNeverStopped) {
-  for (const int before : {0, 1, 7}) {
-    Bench whole, first, second;
-    log_of(whole.engine, before);
-    log_of(first.engine, before);
-    std::stringstream state;
-    first.engine.save(state);
-    second.engine.load(state);
-    EXPECT_EQ(log_of(second.engine, 10), log_of(whole.engine, 10)) << "after " << before;
-  }
+  testing::expect_saved_states_go_on([] { return std::make_unique<Bench>(); }, {0, 1, 7}, 10);
 }
 
 TEST(GaState, EveryTruncationIsRefusedAndLeavesTheEngineAlone) {
-  Bench saved, fresh, target;
-  log_of(saved.engine, 2);
-  std::stringstream state;
-  saved.engine.save(state);
-  const std::string bytes = state.str();
-  log_of(target.engine, 3), log_of(fresh.engine, 3);
-  for (std::size_t length = 0; length < bytes.size(); length += 97) {
-    std::istringstream cut(bytes.substr(0, length));
-    EXPECT_THROW(target.engine.load(cut), Error) << length;
-  }
-  EXPECT_EQ(log_of(target.engine, 3), log_of(fresh.engine, 3));
+  Bench other_seed(small_settings(), 2);
+  testing::expect_foreign_states_refused([] { return std::make_unique<Bench>(); }, other_seed.engine, 2);
 }
 
 TEST(GaState, FlippedBytesNeverGetThroughAsInvalidDerivations) {

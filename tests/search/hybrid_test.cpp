@@ -1,6 +1,6 @@
 #include "search/hybrid.h"
 
-#include <sstream>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -73,33 +73,14 @@ TEST(Hybrid, SameSeedSameCourse) {
 }
 
 TEST(Hybrid, ASavedSearchGoesOnAsIfNeverStopped) {
-  for (const int before : {0, 1, 8, 20, 60, 300}) {
-    Bench whole, first, second;
-    log_of(whole.engine, before);
-    log_of(first.engine, before);
-    std::stringstream state;
-    first.engine.save(state);
-    second.engine.load(state);
-    EXPECT_EQ(log_of(second.engine, 80), log_of(whole.engine, 80)) << "after " << before;
-    EXPECT_EQ(second.engine.stage(), whole.engine.stage());
-  }
+  testing::expect_saved_states_go_on([] { return std::make_unique<Bench>(); }, {0, 1, 8, 20, 60, 300}, 80);
 }
 
 TEST(Hybrid, RefusesForeignStates) {
-  Bench saved, target, fresh;
-  log_of(saved.engine, 30);
-  std::stringstream state;
-  saved.engine.save(state);
-  const std::string text = state.str();
   HybridSettings other = small_settings();
   other.end.heat = 3;  // of a stage that is not yet running: it would not be noticed later
   Bench changed(other);
-  EXPECT_THROW(changed.engine.load(state), Error);
-  for (std::size_t n = 0; n < text.size(); n += 997) {
-    std::stringstream cut(text.substr(0, n));
-    EXPECT_THROW(target.engine.load(cut), Error) << n;
-  }
-  EXPECT_EQ(log_of(target.engine, 5), log_of(fresh.engine, 5));
+  testing::expect_foreign_states_refused([] { return std::make_unique<Bench>(); }, changed.engine, 30);
 }
 
 TEST(Hybrid, StartsFromFounders) {

@@ -13,6 +13,7 @@
 #include "derivation/encode.h"
 #include "derivation/random_derivation.h"
 #include "derivation/sample.h"
+#include "search/deviation.h"
 #include "search/tiny_posterior.h"
 
 namespace espalier {
@@ -64,34 +65,21 @@ Propose slot(PlaceChoice choice, std::uint32_t most = kAll) {
 /// standard errors (of batch means).
 double worst_deviation(Chain& chain, const std::vector<Propose>& moves, std::uint32_t most_genes) {
   constexpr int kBatches = 100, kSteps = 6000;
-  std::map<std::string, double> truth = testing::tiny_posterior(*chain.graph, kBeta, most_genes);
-  double total = 0;
-  for (const auto& [key, density] : truth) total += density;
+  testing::Deviation deviation(testing::shares(testing::tiny_posterior(*chain.graph, kBeta, most_genes)));
   do chain.at = sample(*chain.graph, chain.random).derivation;
   while (chain.at.size() > most_genes);
-  std::map<std::string, double> sum, squares;
   for (int batch = 0; batch < kBatches; ++batch) {
     std::map<std::string, double> share;
     for (int i = 0; i < kSteps; ++i) {
       chain.step(moves[chain.random.below(static_cast<std::uint32_t>(moves.size()))]);
       share[test::key_of(*chain.graph, chain.at)] += 1.0 / kSteps;
     }
-    for (const auto& [key, value] : share) {
-      EXPECT_TRUE(truth.contains(key)) << key;
-      sum[key] += value, squares[key] += value * value;
-    }
+    deviation.add(share);
   }
-  double worst = 0;
-  for (const auto& [key, density] : truth) {
-    const double expected = density / total;
-    if (expected < 0.003) continue;
-    const double mean = sum[key] / kBatches, variance = squares[key] / kBatches - mean * mean;
-    worst = std::max(worst, std::abs(mean - expected) / std::sqrt(variance / kBatches));
-  }
-  return worst;
+  return deviation.worst(0.003);
 }
 
-constexpr double kBound = 4.2;  // in about fifty comparisons once in a thousand
+constexpr double kBound = testing::kLargeDeviation;
 
 class Proposals : public ::testing::TestWithParam<PlaceChoice> {};
 

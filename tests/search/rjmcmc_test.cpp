@@ -1,7 +1,7 @@
 #include "search/rjmcmc.h"
 
 #include <cmath>
-#include <sstream>
+#include <memory>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "derivation/encode.h"
 #include "derivation/sample.h"
+#include "search/deviation.h"
 #include "search/engine_log.h"
 #include "search/test_graph.h"
 #include "search/tiny_posterior.h"
@@ -45,16 +46,13 @@ struct TinyBench {
 };
 
 /// The shares of time that the chains of a rung spend in the derivations, against the posterior at its temperature: the
-/// largest distance in standard errors (of batch means), and the same for the mean of all quantiles.
+/// largest distance in standard errors (of batch means).
 double worst_deviation(const RjmcmcSettings& settings, std::uint32_t rung, double true_beta) {
   constexpr int kBatches = 60, kSteps = 1200;
   TinyBench bench(settings);
-  std::map<std::string, double> truth =
-      testing::tiny_posterior(*bench.graph, true_beta, settings.genes.max);
-  double total = 0;
-  for (const auto& [key, density] : truth) total += density;
+  testing::Deviation deviation(
+      testing::shares(testing::tiny_posterior(*bench.graph, true_beta, settings.genes.max)));
   for (int i = 0; i < 300; ++i) bench.engine.step();
-  std::map<std::string, double> sum, squares;
   for (int batch = 0; batch < kBatches; ++batch) {
     std::map<std::string, double> share;
     double seen = 0;
@@ -66,22 +64,13 @@ double worst_deviation(const RjmcmcSettings& settings, std::uint32_t rung, doubl
         ++seen;
       }
     }
-    for (const auto& [key, value] : share) {
-      EXPECT_TRUE(truth.contains(key)) << key;
-      sum[key] += value / seen, squares[key] += value / seen * value / seen;
-    }
+    for (auto& [key, value] : share) value /= seen;
+    deviation.add(share);
   }
-  double worst = 0;
-  for (const auto& [key, density] : truth) {
-    const double expected = density / total;
-    if (expected < 0.003) continue;
-    const double mean = sum[key] / kBatches, variance = squares[key] / kBatches - mean * mean;
-    worst = std::max(worst, std::abs(mean - expected) / std::sqrt(variance / kBatches));
-  }
-  return worst;
+  return deviation.worst(0.003);
 }
 
-constexpr double kBound = 4.2;
+constexpr double kBound = testing::kLargeDeviation;
 
 double beta_at(const RjmcmcSettings& s, std::uint32_t rung) {
   return std::pow(s.heat, -static_cast<double>(rung) / (s.temperatures - 1));
@@ -207,31 +196,14 @@ TEST(Rjmcmc, SameSeedSameCourse) {
 }
 
 TEST(Rjmcmc, SavedChainsGoOnAsIfNeverStopped) {
-  for (const int before : {0, 1, 2, 9, 50}) {
-    TinyBench whole(tiny_settings()), first(tiny_settings()), second(tiny_settings());
-    log_of(whole.engine, before);
-    log_of(first.engine, before);
-    std::stringstream state;
-    first.engine.save(state);
-    second.engine.load(state);
-    EXPECT_EQ(log_of(second.engine, 40), log_of(whole.engine, 40)) << "after " << before;
-  }
+  testing::expect_saved_states_go_on([] { return std::make_unique<TinyBench>(tiny_settings()); }, {0, 1, 2, 9, 50}, 40);
 }
 
 TEST(Rjmcmc, RefusesForeignStates) {
   RjmcmcSettings hotter = tiny_settings();
   hotter.heat = 7;
-  TinyBench saved(tiny_settings()), other(hotter), target(tiny_settings()), fresh(tiny_settings());
-  log_of(saved.engine, 3);
-  std::stringstream state;
-  saved.engine.save(state);
-  const std::string text = state.str();
-  EXPECT_THROW(other.engine.load(state), Error);
-  for (std::size_t n = 0; n < text.size(); n += 97) {
-    std::stringstream cut(text.substr(0, n));
-    EXPECT_THROW(target.engine.load(cut), Error) << n;
-  }
-  EXPECT_EQ(log_of(target.engine, 5), log_of(fresh.engine, 5));
+  TinyBench other(hotter);
+  testing::expect_foreign_states_refused([] { return std::make_unique<TinyBench>(tiny_settings()); }, other.engine, 3);
 }
 
 TEST(Rjmcmc, CountsAddUp) {

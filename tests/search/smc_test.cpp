@@ -4,13 +4,14 @@
 #include <cmath>
 #include <functional>
 #include <set>
-#include <sstream>
+#include <memory>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/error.h"
 #include "derivation/encode.h"
+#include "search/deviation.h"
 #include "search/engine_log.h"
 #include "search/test_graph.h"
 #include "search/tiny_posterior.h"
@@ -57,7 +58,8 @@ double worst_deviation(const SmcSettings& settings, std::uint32_t most_buds, dou
   std::map<std::string, double> truth = testing::tiny_posterior(*bench.graph, true_beta, settings.genes.max);
   double& evidence = truth["all"];
   for (const auto& [key, density] : std::map(truth)) evidence += key == "all" ? 0 : density;
-  std::map<std::string, double> sum, squares;
+  const double total = evidence;
+  testing::Deviation deviation(truth);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     bench.run_sweep();
     const double log_evidence = bench.engine.log_evidence();
@@ -71,21 +73,12 @@ double worst_deviation(const SmcSettings& settings, std::uint32_t most_buds, dou
       }
     }
     one["all"] = std::exp(log_evidence);
-    for (const auto& [key, value] : one) {
-      EXPECT_TRUE(truth.contains(key)) << key;
-      sum[key] += value, squares[key] += value * value;
-    }
+    deviation.add(one);
   }
-  double worst = 0;
-  for (const auto& [key, expected] : truth) {
-    if (expected < 0.003 * evidence) continue;  // too rare to have an error that can be told
-    const double mean = sum[key] / kSweeps, variance = squares[key] / kSweeps - mean * mean;
-    worst = std::max(worst, std::abs(mean - expected) / std::sqrt(variance / kSweeps));
-  }
-  return worst;
+  return deviation.worst(0.003 * total);
 }
 
-constexpr double kBound = 4.2;  // in about fifty comparisons once in a thousand
+constexpr double kBound = testing::kLargeDeviation;
 
 TEST(Smc, EstimatesThePosteriorAndItsEvidenceWithoutBias) {
   for (const SlotOrder order : {SlotOrder::depth_first, SlotOrder::random}) {
@@ -136,31 +129,14 @@ TEST(Smc, ASavedSweepGoesOnAsIfNeverStopped) {
   SmcSettings settings = small_settings();
   settings.genes.max = 6;  // some particles die
   settings.resample_below = 0.3;
-  for (const int before : {0, 1, 3, 7, 12, 13, 14}) {
-    TinyBench whole(settings), first(settings), second(settings);
-    log_of(whole.engine, before);
-    log_of(first.engine, before);
-    std::stringstream state;
-    first.engine.save(state);
-    second.engine.load(state);
-    EXPECT_EQ(log_of(second.engine, 25), log_of(whole.engine, 25)) << "after " << before;
-    EXPECT_EQ(second.engine.log_evidence(), whole.engine.log_evidence());
-  }
+  testing::expect_saved_states_go_on([&] { return std::make_unique<TinyBench>(settings); }, {0, 1, 3, 7, 12, 13, 14},
+                                     25);
 }
 
 TEST(Smc, RefusesForeignStates) {
-  TinyBench saved(small_settings()), other(small_settings(SlotOrder::depth_first));
-  log_of(saved.engine, 3);
-  std::stringstream state;
-  saved.engine.save(state);
-  const std::string text = state.str();
-  EXPECT_THROW(other.engine.load(state), Error);
-  TinyBench target(small_settings()), fresh(small_settings());
-  for (std::size_t n = 0; n < text.size(); n += 97) {
-    std::stringstream cut(text.substr(0, n));
-    EXPECT_THROW(target.engine.load(cut), Error) << n;
-  }
-  EXPECT_EQ(log_of(target.engine, 5), log_of(fresh.engine, 5));
+  TinyBench in_order(small_settings(SlotOrder::depth_first));
+  testing::expect_foreign_states_refused([] { return std::make_unique<TinyBench>(small_settings()); }, in_order.engine,
+                                         3);
 }
 
 TEST(Smc, TheBestIsAlwaysFinishedAndNeverForgotten) {
