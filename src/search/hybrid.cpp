@@ -38,6 +38,7 @@ void validate(const HybridSettings& s) {
   validate(s.middle);
   validate(s.end);
   require_range("sweeps", s.sweeps, 1u, 1000u);
+  require_range("start_evaluations", s.start_evaluations, std::uint64_t{1}, std::uint64_t{1'000'000'000'000});
   require_range("patience", s.patience, std::uint64_t{1}, std::uint64_t{1'000'000'000'000});
   require_range("least_rise", s.least_rise, 0.0, 1.0);
 }
@@ -81,7 +82,9 @@ void HybridEngine::step() {
 }
 
 bool HybridEngine::is_over() const {
-  if (stage_ == Stage::start) return count_of(*engine_, "sweeps") >= settings_.sweeps;
+  if (stage_ == Stage::start) {
+    return count_of(*engine_, "sweeps") >= settings_.sweeps || engine_->evaluations() >= settings_.start_evaluations;
+  }
   return stage_ == Stage::middle && evaluations() - risen_at_ >= settings_.patience;
 }
 
@@ -95,15 +98,41 @@ void HybridEngine::hand_over() {
   risen_at_ = evaluations();
 }
 
-/// The best ever and the best of the population, each once, finished and within the limits.
+/// The best ever and the best of the population, each once, finished and within the limits. Of what is unfinished, a
+/// closed copy is scored.
 std::vector<Individual> HybridEngine::heirs(std::size_t most) {
   std::vector<Individual> all = {best_};
   std::unordered_set<std::uint64_t> seen = {hash(best_.derivation)};
-  for (const Individual& one : engine_->population()) {
-    if (all.size() == most) break;
-    if (is_finished(one.derivation) && seen.insert(hash(one.derivation)).second) all.push_back(one);
+  std::vector<std::size_t> unscored;
+  const std::span<const Individual> population = engine_->population();
+  for (std::size_t i = 0; i < population.size() && all.size() < most; ++i) {
+    Individual heir = population[i];
+    const bool finished = is_finished(heir.derivation);
+    if (!finished) {
+      RandomStream random({problem_.seed, Purpose::close, problem_.lane, static_cast<std::uint32_t>(i),
+                           static_cast<std::uint32_t>(steps_)});
+      if (!close_open_slots(*problem_.graph, heir.derivation, random)) continue;
+    }
+    const GeneLimits& genes = settings_.middle.genes;
+    if (heir.derivation.size() < genes.min || heir.derivation.size() > genes.max) continue;
+    if (!seen.insert(hash(heir.derivation)).second) continue;
+    if (!finished) unscored.push_back(all.size());
+    all.push_back(std::move(heir));
   }
+  score(unscored, all);
+  std::erase_if(all, [](const Individual& one) { return !std::isfinite(one.score); });
+  std::stable_sort(all.begin(), all.end(), [](const Individual& a, const Individual& b) { return a.score > b.score; });
   return all;
+}
+
+void HybridEngine::score(const std::vector<std::size_t>& which, std::vector<Individual>& individuals) {
+  if (which.empty()) return;
+  std::vector<const Derivation*> batch;
+  for (const std::size_t i : which) batch.push_back(&individuals[i].derivation);
+  std::vector<double> scores(batch.size());
+  problem_.scorer->score(batch, scores);
+  evaluations_before_ += batch.size();
+  for (std::size_t k = 0; k < which.size(); ++k) individuals[which[k]].score = scores[k];
 }
 
 std::vector<NamedCount> HybridEngine::diagnostics() const {
@@ -119,8 +148,8 @@ std::vector<NamedCount> HybridEngine::diagnostics() const {
 
 std::string HybridEngine::own_fingerprint() const {
   return fingerprint("hybrid", problem_,
-                     fmt::format("sweeps {} patience {} least {}; {}; {}; {}", settings_.sweeps, settings_.patience,
-                                 settings_.least_rise, to_text(settings_.start), to_text(settings_.middle),
+                     fmt::format("sweeps {} start {} patience {} least {}; {}; {}; {}", settings_.sweeps,
+                                 settings_.start_evaluations, settings_.patience, settings_.least_rise, to_text(settings_.start), to_text(settings_.middle),
                                  to_text(settings_.end)));
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Hybrid: SOSMC for the start, then the genetic algorithm, then RJMCMC, each beginning with what the one before found
-// (the future work of ShapeGenetics 2017, section 9). SOSMC hands over after its first sweeps, the genetic algorithm
-// when it has stalled, counted in evaluations.
+// (the future work of ShapeGenetics 2017, section 9). SOSMC hands over after its first sweeps or
+// so many evaluations, the genetic algorithm when it has stalled, counted in evaluations.
 
 #include <array>
 #include <cstdint>
@@ -39,6 +39,7 @@ class HybridEngine final : public Engine {
   bool is_over() const;
   void hand_over();
   std::vector<Individual> heirs(std::size_t most);
+  void score(const std::vector<std::size_t>& which, std::vector<Individual>& individuals);
   std::string own_fingerprint() const;
 
   SearchProblem problem_;

@@ -67,6 +67,19 @@ TEST(Hybrid, GoesThroughItsStagesAndNeverFallsBack) {
   EXPECT_GT(count_of(bench.engine, "rjmcmc: jumps"), 0u);
 }
 
+TEST(Hybrid, TheStartGivesWayInTheMiddleOfASweep) {
+  HybridSettings settings = small_settings();
+  settings.start_evaluations = 100;
+  Bench bench(settings);
+  while (bench.engine.stage() == Stage::start) {
+    bench.engine.step();
+    ASSERT_LT(bench.engine.evaluations(), 1000u);
+  }
+  EXPECT_EQ(count_of(bench.engine, "sosmc: sweeps"), 0u);
+  EXPECT_EQ(bench.engine.evaluations(), bench.scorer.asked.size());
+  for (const Individual& one : bench.engine.population()) EXPECT_EQ(one.score, BudScorer::score_of(one.derivation));
+}
+
 TEST(Hybrid, SameSeedSameCourse) {
   Bench a, b;
   EXPECT_EQ(log_of(a.engine, 200), log_of(b.engine, 200));
