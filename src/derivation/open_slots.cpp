@@ -98,7 +98,7 @@ class Closer {
   Closer(const GeneratorGraph& graph, const Derivation& from, RandomStream& random)
       : graph_(graph), from_(from), random_(random) {}
 
-  bool run(LimitLedger ledger, Derivation& out);
+  bool run(LimitLedger ledger, std::uint32_t most_genes, Derivation& out);
 
  private:
   struct Frame {
@@ -131,7 +131,7 @@ void Closer::push(const GenePosition& gene, Derivation& out) {
   above_.enter(rule_of(graph_, record));
 }
 
-bool Closer::run(LimitLedger ledger, Derivation& out) {
+bool Closer::run(LimitLedger ledger, std::uint32_t most_genes, Derivation& out) {
   out.genes.clear(), out.slots.clear(), out.draws.clear();
   stack_.clear();
   writer_.begin(out);
@@ -155,7 +155,10 @@ bool Closer::run(LimitLedger ledger, Derivation& out) {
     } else if (state == SlotState::open) {
       state = graph_.edges[edge].required ? SlotState::filled : SlotState::empty;
       if (state == SlotState::empty) continue;
-      if (growth_.append(graph_, edge, above_.counts(), random_, ledger, out) != GrowthFault::none) return false;
+      if (out.size() >= most_genes) return false;
+      const auto room = static_cast<std::uint32_t>(most_genes - out.size());
+      const GrowthFault fault = growth_.append(graph_, edge, above_.counts(), random_, ledger, out, room);
+      if (fault != GrowthFault::none) return false;
     }
   }
   return true;
@@ -194,7 +197,8 @@ bool is_finished(const Derivation& derivation) {
   return std::find(derivation.slots.begin(), derivation.slots.end(), SlotState::open) == derivation.slots.end();
 }
 
-bool close_open_slots(const GeneratorGraph& graph, Derivation& derivation, RandomStream& random) {
+bool close_open_slots(const GeneratorGraph& graph, Derivation& derivation, RandomStream& random,
+                      std::uint32_t most_genes) {
   if (is_finished(derivation)) return true;
   LimitLedger ledger;
   ledger.reset(graph, derivation);
@@ -203,7 +207,7 @@ bool close_open_slots(const GeneratorGraph& graph, Derivation& derivation, Rando
   closed.detail_seed = derivation.detail_seed;
   constexpr int kMostTries = 100;
   for (int attempt = 0; attempt < kMostTries; ++attempt) {
-    if (!closer.run(ledger, closed)) continue;
+    if (!closer.run(ledger, most_genes, closed)) continue;
     derivation = std::move(closed);
     return true;
   }

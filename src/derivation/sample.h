@@ -47,8 +47,9 @@ GrowthStep grow_open_slot(const GeneratorGraph& graph, Derivation& derivation, R
 bool is_finished(const Derivation& derivation);
 
 /// Closes every open slot: optional ones become empty, required ones are grown (their optional slots empty). False, and
-/// the derivation untouched, if limits or endless required growth left no way in 100 tries.
-bool close_open_slots(const GeneratorGraph& graph, Derivation& derivation, RandomStream& random);
+/// the derivation untouched, if limits or endless required growth left no way to at most `most_genes` genes in 100 tries.
+bool close_open_slots(const GeneratorGraph& graph, Derivation& derivation, RandomStream& random,
+                      std::uint32_t most_genes = 100'000);
 
 /// The gene's program emits or makes a bone: what ends a step of growth.
 bool makes_something(const Variant& variant);

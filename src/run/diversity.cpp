@@ -1,5 +1,7 @@
 #include "run/diversity.h"
 
+#include <optional>
+
 #include "derivation/sample.h"
 
 namespace espalier {
@@ -8,11 +10,13 @@ DiverseArchive::DiverseArchive(ModelSketcher sketcher, std::size_t size, double 
     : sketcher_(std::move(sketcher)), size_(size), least_distance_(least_distance) {}
 
 void DiverseArchive::offer(std::span<const Individual> population) {
+  std::optional<double> seen;
   for (std::size_t i = 0; i < population.size(); ++i) {
     const double score = population[i].score;
     if (members_.size() == size_ && (size_ == 0 || score <= members_.back().score)) return;
-    if (i > 0 && score == population[i - 1].score) continue;  // a twin, as good as always
+    if (seen && score == *seen) continue;  // a twin, as good as always
     if (!is_finished(population[i].derivation)) continue;
+    seen = score;
     offer(population[i]);
   }
 }

@@ -6,13 +6,20 @@
 
 #include "base/error.h"
 #include "derivation/encode.h"
+#include "derivation/sample.h"
 
 namespace espalier {
 
 std::string fingerprint(std::string_view engine, const SearchProblem& problem, const std::string& settings) {
-  return fmt::format("{} {} seed {} lane {} optimum {} locks {} founders {} {}", engine, problem.graph->source_hash,
-                     problem.seed, problem.lane, problem.scorer->optimum(), problem.locks.size(),
-                     problem.founders.size(), settings);
+  std::string locks, founders;
+  for (const Lock& lock : problem.locks) {
+    locks += fmt::format(" {}{}", static_cast<int>(lock.scope), format_gene_path(*problem.graph, lock.path));
+  }
+  for (const Individual& founder : problem.founders) {
+    founders += fmt::format(" {:x}={}", hash(founder.derivation), founder.score);
+  }
+  return fmt::format("{} {} seed {} lane {} optimum {} locks{} founders{} {}", engine, problem.graph->source_hash,
+                     problem.seed, problem.lane, problem.scorer->optimum(), locks, founders, settings);
 }
 
 void write_head(StateWriter& writer, std::uint64_t magic, std::uint64_t version, const std::string& fingerprint) {
@@ -43,6 +50,16 @@ Individual read_individual(StateReader& reader, const GeneratorGraph& graph) {
   individual.derivation = reader.derivation();
   if (const std::string fault = find_fault(graph, individual.derivation); !fault.empty()) {
     throw Error("saved state: a derivation does not fit the grammar: " + fault);
+  }
+  return individual;
+}
+
+Individual read_finished_individual(StateReader& reader, const GeneratorGraph& graph, const GeneLimits& genes) {
+  Individual individual = read_individual(reader, graph);
+  const std::size_t size = individual.derivation.size();
+  if (!is_finished(individual.derivation)) throw Error("saved state: a derivation must have no open slots");
+  if (size < genes.min || size > genes.max) {
+    throw Error(fmt::format("saved state: genes must be between {} and {}, got {}", genes.min, genes.max, size));
   }
   return individual;
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "search/engine.h"
+#include "search/gene_limits.h"
 #include "search/state_stream.h"
 
 namespace espalier {
@@ -17,5 +18,7 @@ void read_head(StateReader& reader, std::uint64_t magic, std::uint64_t version, 
 void write_individual(StateWriter& writer, const Individual& individual);
 /// Throws Error for a score that is not finite, or what is no derivation of the graph.
 Individual read_individual(StateReader& reader, const GeneratorGraph& graph);
+/// The same, and for what is not finished or beyond the limits.
+Individual read_finished_individual(StateReader& reader, const GeneratorGraph& graph, const GeneLimits& genes);
 
 }  // namespace espalier

@@ -25,7 +25,8 @@ void GaEngine::join_gains() {
   }
 }
 
-// The joined child takes the place of the least of those that it is made of, if it is better than the best of them.
+// The joined child takes the place of the least of the parent's children that had gained, if it is better than the best
+// of them.
 void GaEngine::join_of(std::span<const std::size_t> places) {
   if (places.size() < 2) return;
   take_changes(places);

@@ -37,6 +37,9 @@ void validate(const HybridSettings& s) {
   validate(s.start);
   validate(s.middle);
   validate(s.end);
+  if (s.start.genes != s.middle.genes || s.end.genes != s.middle.genes) {
+    throw Error("the engines of a hybrid must have the same gene limits");
+  }
   require_range("sweeps", s.sweeps, 1u, 1000u);
   require_range("start_evaluations", s.start_evaluations, std::uint64_t{1}, std::uint64_t{1'000'000'000'000});
   require_range("patience", s.patience, std::uint64_t{1}, std::uint64_t{1'000'000'000'000});
@@ -46,15 +49,18 @@ void validate(const HybridSettings& s) {
 HybridEngine::HybridEngine(const SearchProblem& problem, const HybridSettings& settings)
     : problem_(problem), settings_(validated(settings)), founders_(problem.founders) {
   CHECK(problem_.scorer != nullptr);
+  CHECK(problem_.lane < (1u << 24) / 3);
   for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] = make_engine(static_cast<Stage>(i), {})->diagnostics();
   engine_ = make_engine(stage_, founders_);
 }
 
 HybridEngine::~HybridEngine() = default;
 
+std::uint32_t HybridEngine::lane_of(Stage stage) const { return problem_.lane * 3 + static_cast<std::uint32_t>(stage); }
+
 std::unique_ptr<Engine> HybridEngine::make_engine(Stage stage, std::vector<Individual> founders) const {
   SearchProblem problem = problem_;
-  problem.lane = problem_.lane * 3 + static_cast<std::uint32_t>(stage);
+  problem.lane = lane_of(stage);
   problem.founders = std::move(founders);
   switch (stage) {
     case Stage::start: return std::make_unique<SmcEngine>(problem, settings_.start);
@@ -106,14 +112,14 @@ std::vector<Individual> HybridEngine::heirs(std::size_t most) {
   std::vector<std::size_t> unscored;
   const std::span<const Individual> population = engine_->population();
   for (std::size_t i = 0; i < population.size() && all.size() < most; ++i) {
+    const GeneLimits& genes = settings_.middle.genes;
     Individual heir = population[i];
     const bool finished = is_finished(heir.derivation);
     if (!finished) {
-      RandomStream random({problem_.seed, Purpose::close, problem_.lane, static_cast<std::uint32_t>(i),
+      RandomStream random({problem_.seed, Purpose::close, lane_of(Stage::middle), static_cast<std::uint32_t>(i),
                            static_cast<std::uint32_t>(steps_)});
-      if (!close_open_slots(*problem_.graph, heir.derivation, random)) continue;
+      if (!close_open_slots(*problem_.graph, heir.derivation, random, genes.max)) continue;
     }
-    const GeneLimits& genes = settings_.middle.genes;
     if (heir.derivation.size() < genes.min || heir.derivation.size() > genes.max) continue;
     if (!seen.insert(hash(heir.derivation)).second) continue;
     if (!finished) unscored.push_back(all.size());
@@ -183,9 +189,9 @@ void HybridEngine::load(std::istream& in) {
   }
   const std::uint64_t size = reader.u64_at_most(1'000'000, "founders");
   std::vector<Individual> founders;
-  for (std::uint64_t i = 0; i < size; ++i) founders.push_back(read_individual(reader, *problem_.graph));
+  for (std::uint64_t i = 0; i < size; ++i) founders.push_back(read_finished_individual(reader, *problem_.graph, settings_.middle.genes));
   Individual best;
-  if (steps > 0) best = read_individual(reader, *problem_.graph);
+  if (steps > 0) best = read_finished_individual(reader, *problem_.graph, settings_.middle.genes);
   std::unique_ptr<Engine> engine = make_engine(stage, founders);
   engine->load(in);
 

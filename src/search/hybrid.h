@@ -36,6 +36,7 @@ class HybridEngine final : public Engine {
 
  private:
   std::unique_ptr<Engine> make_engine(Stage stage, std::vector<Individual> founders) const;
+  std::uint32_t lane_of(Stage stage) const;
   bool is_over() const;
   void hand_over();
   std::vector<Individual> heirs(std::size_t most);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -30,7 +31,7 @@ class Maker {
   StartResult run(std::span<const Individual> founders, std::span<const Individual> stand_ins);
 
  private:
-  Derivation begin_one(std::size_t place, RandomStream& random) const;
+  std::optional<Derivation> begin_one(std::size_t place, RandomStream& random) const;
   bool grow_one(std::size_t place);
   void score();
   void copy(std::span<const Individual> stand_ins);
@@ -44,13 +45,14 @@ class Maker {
   StartResult made_;
 };
 
-Derivation Maker::begin_one(std::size_t place, RandomStream& random) const {
+/// Nothing where the required slots could not be grown.
+std::optional<Derivation> Maker::begin_one(std::size_t place, RandomStream& random) const {
   const GeneratorGraph& graph = *problem_.graph;
   if (!problem_.locks.empty() && !problem_.founders.empty()) {
     return stripped(graph, problem_.founders[place % problem_.founders.size()].derivation, problem_.locks);
   }
   Derivation start = seedling(graph, random);
-  close_open_slots(graph, start, random);
+  if (!close_open_slots(graph, start, random)) return std::nullopt;
   return start;
 }
 
@@ -65,7 +67,9 @@ bool Maker::grow_one(std::size_t place) {
     const auto index = static_cast<std::uint32_t>(place);
     RandomStream random({problem_.seed, Purpose::initial, problem_.lane, index, epoch_ * kMostStarts + attempt});
     const std::uint32_t length = low + random.below(high - low + 1);
-    start = begin_one(place, random);
+    std::optional<Derivation> begun = begin_one(place, random);
+    if (!begun) continue;
+    start = std::move(*begun);
     while (start.size() < length && grow(*problem_.graph, start, problem_.locks, random)) {}
     // Required slots bring several genes at once, so the limits may be overshot.
     if (start.size() < settings_.genes.min || start.size() > settings_.genes.max) continue;

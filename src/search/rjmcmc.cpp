@@ -174,10 +174,11 @@ void RjmcmcEngine::decide() {
 void RjmcmcEngine::swap_rungs() {
   std::vector<std::size_t> place_of(states_.size());
   for (std::size_t i = 0; i < chain_of_.size(); ++i) place_of[chain_of_[i]] = i;
-  const std::uint32_t first = static_cast<std::uint32_t>(steps_ / settings_.swap_every) % 2;
+  // Even pairs and odd ones in turn; two rungs are one pair.
+  const bool odd = settings_.temperatures > 2 && steps_ / settings_.swap_every % 2 == 1;
   for (std::uint32_t chain = 0; chain + 1 < chain_of_.size(); ++chain) {
     const std::uint32_t rung = chain % settings_.temperatures;
-    if (rung % 2 != first || rung + 1 == settings_.temperatures) continue;
+    if ((rung % 2 == 1) != odd || rung + 1 == settings_.temperatures) continue;
     RandomStream random({problem_.seed, Purpose::swap, problem_.lane, chain, static_cast<std::uint32_t>(steps_)});
     std::size_t& cold = place_of[chain];
     std::size_t& hot = place_of[chain + 1];
@@ -191,16 +192,20 @@ void RjmcmcEngine::swap_rungs() {
 }
 
 void RjmcmcEngine::sort_states() {
-  // Few change places from step to step: insertion.
-  for (std::size_t i = 1; i < states_.size(); ++i) {
-    const auto after = [this](std::size_t a, std::size_t b) {
-      return states_[a].score != states_[b].score ? states_[a].score < states_[b].score : chain_of_[a] > chain_of_[b];
-    };
-    for (std::size_t j = i; j > 0 && after(j - 1, j); --j) {
-      std::swap(states_[j - 1], states_[j]);
-      std::swap(chain_of_[j - 1], chain_of_[j]);
-    }
+  const auto before = [this](std::size_t a, std::size_t b) {
+    return states_[a].score != states_[b].score ? states_[a].score > states_[b].score : chain_of_[a] < chain_of_[b];
+  };
+  order_.resize(states_.size());
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  std::sort(order_.begin(), order_.end(), before);
+  state_scratch_.resize(states_.size());
+  chain_scratch_.resize(states_.size());
+  for (std::size_t rank = 0; rank < order_.size(); ++rank) {
+    std::swap(state_scratch_[rank], states_[order_[rank]]);
+    chain_scratch_[rank] = chain_of_[order_[rank]];
   }
+  states_.swap(state_scratch_);
+  chain_of_.swap(chain_scratch_);
 }
 
 }  // namespace espalier

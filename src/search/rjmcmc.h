@@ -96,6 +96,9 @@ class RjmcmcEngine final : public Engine {
   std::vector<const Derivation*> batch_;
   std::vector<std::size_t> batch_places_;
   std::vector<double> scores_;
+  std::vector<std::size_t> order_;
+  std::vector<Individual> state_scratch_;
+  std::vector<std::uint32_t> chain_scratch_;
 };
 
 }  // namespace espalier

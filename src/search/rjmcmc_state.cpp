@@ -82,13 +82,13 @@ void RjmcmcEngine::load(std::istream& in) {
   std::vector<Individual> states;
   std::vector<std::uint32_t> chain_of;
   if (steps > 0) {
-    best = read_individual(reader, *problem_.graph);
+    best = read_finished_individual(reader, *problem_.graph, settings_.genes);
     std::vector<char> seen(settings_.chains, 0);
     for (std::uint32_t i = 0; i < settings_.chains; ++i) {
       const std::uint64_t chain = reader.u64_at_most(settings_.chains - 1, "chain");
       if (seen[chain]++) throw Error(fmt::format("saved state: chain {} is there twice", chain));
       chain_of.push_back(static_cast<std::uint32_t>(chain));
-      states.push_back(read_individual(reader, *problem_.graph));
+      states.push_back(read_finished_individual(reader, *problem_.graph, settings_.genes));
     }
   }
 

@@ -40,7 +40,7 @@ std::span<const Individual> SmcEngine::population() const {
 }
 
 void SmcEngine::step() {
-  if (steps_ == 0) make_first_individual();
+  if (steps_ == 0) make_first_individuals();
   if (sweep_step_ == 0) {
     begin_sweep();
   } else if (sweep_step_ > settings_.most_steps) {
@@ -63,15 +63,19 @@ void SmcEngine::step() {
   ++steps_;
 }
 
-void SmcEngine::make_first_individual() {
-  const StartSettings settings = {1, settings_.initial_length_min, settings_.initial_length_max, settings_.genes};
+void SmcEngine::make_first_individuals() {
+  // Several, so that hard limits which few models meet are met by one.
+  constexpr std::uint32_t kMostFirst = 100;
+  const StartSettings settings = {std::min(settings_.particles, kMostFirst), settings_.initial_length_min,
+                                  settings_.initial_length_max, settings_.genes};
   StartResult made = make_initial_population(problem_, settings, 0, problem_.founders, {});
-  best_ = std::move(made.individuals[0]);
+  best_ = *std::max_element(made.individuals.begin(), made.individuals.end(),
+                            [](const Individual& a, const Individual& b) { return a.score < b.score; });
   evaluations_ += made.evaluations;
   counts_.rejected_starts += made.rejected_starts;
 }
 
-/// Of founders, what is empty grows on; where there are locks, all that these do not hold is grown anew.
+/// Of founders, what is empty grows on; where there are locks, optional slots that these do not hold are emptied first.
 Derivation SmcEngine::begin_particle(std::size_t particle, RandomStream& random) const {
   if (problem_.founders.empty()) return seedling(*problem_.graph, random);
   Derivation start = problem_.founders[particle % problem_.founders.size()].derivation;
@@ -120,7 +124,7 @@ void SmcEngine::close_particles() {
     RandomStream random({problem_.seed, Purpose::close, problem_.lane, static_cast<std::uint32_t>(i),
                          static_cast<std::uint32_t>(steps_)});
     ++counts_.closed_particles;
-    if (close_open_slots(*problem_.graph, derivation, random)) {
+    if (close_open_slots(*problem_.graph, derivation, random, settings_.genes.max)) {
       admit(i);
     } else {
       ++counts_.stuck_particles;
@@ -206,7 +210,7 @@ void SmcEngine::remember_best() {
 void SmcEngine::consider_closed(const Individual& unfinished) {
   Derivation closed = unfinished.derivation;
   RandomStream random({problem_.seed, Purpose::close, problem_.lane, 0xffffffff, static_cast<std::uint32_t>(steps_)});
-  if (!close_open_slots(*problem_.graph, closed, random)) return;
+  if (!close_open_slots(*problem_.graph, closed, random, settings_.genes.max)) return;
   if (closed.size() < settings_.genes.min || closed.size() > settings_.genes.max) return;
   const Derivation* one[] = {&closed};
   double score[1];

@@ -6,7 +6,8 @@
 //
 //     prior(derivation) * exp(score / temperature), restricted to what is acceptable,
 //
-// weighted, and the product of mean weights is an unbiased estimate of its integral. Then another sweep begins.
+// weighted, and the product of mean weights is an unbiased estimate of its integral (unless `most_steps` cut some short).
+// Then another sweep begins.
 //
 // What growth cannot mend weighs nothing: more genes than the limits allow, and what the scorer finds not acceptable.
 // Unfinished particles are scored as they stand: open slots show their `otherwise`. Where there are founders, sweeps
@@ -66,7 +67,7 @@ class SmcEngine final : public Engine {
   double effective_particles() const { return effective_; }
 
  private:
-  void make_first_individual();
+  void make_first_individuals();
   Derivation begin_particle(std::size_t particle, RandomStream& random) const;
   void begin_sweep();
   void grow_particles();

@@ -27,7 +27,7 @@ struct SmcSettings {
   ParticleWeight weight = ParticleWeight::exponential;
   /// > 0; none: a hundredth of the optimum, or 1 where that is not above 0.
   std::optional<double> temperature = std::nullopt;
-  std::uint32_t initial_length_min = 50, initial_length_max = 50;  // of the one individual that is there from the start
+  std::uint32_t initial_length_min = 50, initial_length_max = 50;  // of the individuals that are there from the start
   GeneLimits genes = {};
 
   bool operator==(const SmcSettings&) const = default;

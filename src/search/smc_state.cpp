@@ -1,4 +1,5 @@
 // Saving and loading sequential Monte Carlo.
+#include <cmath>
 #include <istream>
 #include <ostream>
 
@@ -59,17 +60,21 @@ void SmcEngine::load(std::istream& in) {
   StateReader reader(in);
   read_head(reader, kMagic, kStateVersion, fingerprint("smc", problem_, to_text(settings_)));
   const std::uint64_t steps = reader.u64(), evaluations = reader.u64(), sweep_step = reader.u64();
-  const std::uint64_t particles = reader.u64_at_most(1'000'000, "particles");
+  const std::uint64_t particles = reader.u64_at_most(settings_.most_particles, "particles");
+  if (particles < settings_.particles) {
+    throw Error(fmt::format("saved state: particles must be at least {}, got {}", settings_.particles, particles));
+  }
   const double log_evidence = reader.f64(), log_mean = reader.f64(), effective = reader.f64();
   SmcCounts counts;
   for (const Entry& entry : kEntries) counts.*entry.member = reader.u64();
-  const std::uint64_t living = reader.u64_at_most(1'000'000, "particles");
+  const std::uint64_t living = reader.u64_at_most(sweep_step > 0 ? particles : settings_.most_particles, "living particles");
   Individual best;
   std::vector<Individual> individuals;
   std::vector<double> log_weights;
-  if (steps > 0) best = read_individual(reader, *problem_.graph);
+  if (steps > 0) best = read_finished_individual(reader, *problem_.graph, settings_.genes);
   for (std::uint64_t i = 0; steps > 0 && i < living; ++i) {
     log_weights.push_back(reader.f64());
+    if (!std::isfinite(log_weights.back())) throw Error("saved state: a log weight must be finite");
     individuals.push_back(read_individual(reader, *problem_.graph));
   }
 
