@@ -88,7 +88,8 @@ struct RenderOptions {
   std::string size;       // "1200x900"; empty: that, for turntables 400x300
   std::string eye, at;    // "x,y,z"; empty: not given
   std::optional<double> azimuth, elevation, fov, tall;
-  std::uint32_t samples = 16, turntable = 0, columns = 0;
+  std::uint32_t samples = 16, columns = 0;
+  std::optional<std::uint32_t> turntable;
   bool no_ground = false, transparent = false, targets = false;
   std::string background, view = "full", light;
   int threads = 0;

@@ -29,7 +29,7 @@ bool read_numbers(std::string_view text, std::string_view separators, Number (&o
 }
 
 std::array<std::uint32_t, 2> read_size(const RenderOptions& options) {
-  if (options.size.empty()) return options.turntable > 0 ? std::array{400u, 300u} : std::array{1200u, 900u};
+  if (options.size.empty()) return options.turntable ? std::array{400u, 300u} : std::array{1200u, 900u};
   std::uint32_t size[2];
   if (!read_numbers(options.size, "x,", size))
     throw Error(fmt::format("--size must be WIDTHxHEIGHT, got \"{}\"", options.size));
@@ -52,6 +52,8 @@ PictureView read_view(const std::string& text) {
 
 PictureRequest request_of(const RenderOptions& options) {
   PictureRequest r;
+  if (options.turntable == 0u)
+    throw Error(fmt::format("--turntable must be from 2 to {}, got 0", PictureRequest::kMostFrames));
   r.size = read_size(options);
   r.eye = read_place("--eye", options.eye), r.at = read_place("--at", options.at);
   if (r.eye && options.azimuth) throw Error("--eye and --azimuth exclude each other");
@@ -63,8 +65,8 @@ PictureRequest request_of(const RenderOptions& options) {
   r.ground = !options.no_ground, r.transparent = options.transparent, r.background = options.background;
   r.view = read_view(options.view);
   r.targets = options.targets;
-  r.frames = options.turntable, r.columns = options.columns;
-  if (!options.light.empty() && options.turntable == 0) throw Error("--light needs --turntable");
+  r.frames = options.turntable.value_or(0), r.columns = options.columns;
+  if (!options.light.empty() && !options.turntable) throw Error("--light needs --turntable");
   if (!options.light.empty() && options.light != "camera" && options.light != "model")
     throw Error(fmt::format("--light must be camera or model, got \"{}\"", options.light));
   r.fixed_light = options.light == "model";

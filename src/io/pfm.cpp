@@ -37,7 +37,7 @@ Number parse(std::string_view word, std::string_view what) {
   Number number{};
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), number);
   if (code != std::errc() || end != word.data() + word.size())
-    throw Error(fmt::format("it is damaged ({} must be a number)", what));
+    throw Error(fmt::format("it is damaged ({}, got \"{}\")", what, word));
   return number;
 }
 
@@ -45,11 +45,11 @@ Header parse_header(std::string_view bytes) {
   Header header;
   std::size_t at = 0;
   header.channels = next_word(bytes, at) == "PF" ? 3 : 1;
-  header.width = parse<std::uint32_t>(next_word(bytes, at), "its width");
-  header.height = parse<std::uint32_t>(next_word(bytes, at), "its height");
+  header.width = parse<std::uint32_t>(next_word(bytes, at), "its width must be a whole number");
+  header.height = parse<std::uint32_t>(next_word(bytes, at), "its height must be a whole number");
   check_image_size(header.width, header.height);
   // Its sign tells the order of bytes; its size is a unit of light that means nothing here.
-  const auto scale = parse<double>(next_word(bytes, at), "its scale");
+  const auto scale = parse<double>(next_word(bytes, at), "its scale must be a number");
   if (!std::isfinite(scale) || scale == 0) throw Error("it is damaged (its scale must be a number other than 0)");
   header.little_endian = scale < 0;
   header.size = at;

@@ -147,8 +147,8 @@ Camera frame_turning(std::span<const Vec3> points, float azimuth_deg, float elev
   return turned(frame_points(swept, 0, elevation_deg, lens, margin), Vec3(0), azimuth_deg);
 }
 
-Camera placed_camera(const Vec3& eye, const Vec3& at, const Lens& lens, const Vec3& up) {
-  const glm::dvec3 ahead = glm::dvec3(at) - glm::dvec3(eye), across = glm::cross(ahead, glm::dvec3(up));
+Camera placed_camera(const Vec3& eye, const glm::dvec3& ahead, const Lens& lens, const Vec3& up) {
+  const glm::dvec3 across = glm::cross(ahead, glm::dvec3(up));
   const double length = glm::length(ahead), level = glm::length(across);
   CHECK(length > 0);
   Camera camera;

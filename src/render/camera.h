@@ -61,7 +61,7 @@ Camera frame_turning(std::span<const Vec3> points, float azimuth_deg, float elev
 
 /// At `eye`, with `at` in the middle. They must differ. Where `up` is y, looking straight down -z is up, straight up
 /// +z.
-Camera placed_camera(const Vec3& eye, const Vec3& at, const Lens& lens, const Vec3& up = {0, 1, 0});
+Camera placed_camera(const Vec3& eye, const glm::dvec3& ahead, const Lens& lens, const Vec3& up = {0, 1, 0});
 
 /// The camera gone round the vertical axis through `centre`.
 Camera turned(const Camera& camera, const Vec3& centre, float degrees);

@@ -151,9 +151,10 @@ Lens lens_for(const RenderSettings& s, const Set& set) {
 Vec3 looked_at(const CameraPlace& place, const Set& set) { return place.at ? set.unit_point(*place.at) : Vec3(0); }
 
 Camera placed(const CameraPlace& place, const Set& set, const Lens& lens) {
-  Vec3 eye = set.unit_point(place.eye);
-  if (eye == looked_at(place, set)) eye.z += 1e-3f;  // in the very middle of the model, or all but
-  return placed_camera(eye, looked_at(place, set), lens, place.up);
+  // The way to look is worked out from the places that were given: far away, both may be one place of the unit space.
+  glm::dvec3 ahead = (place.at ? glm::dvec3(*place.at) : set.centre) - glm::dvec3(place.eye);
+  if (ahead == glm::dvec3(0)) ahead.z = -1;  // in the very middle of the model
+  return placed_camera(set.unit_point(place.eye), ahead, lens, place.up);
 }
 
 Stage stage_for(const RenderSettings& settings, const Set& set, const Camera& camera) {

@@ -61,6 +61,11 @@ std::string find_derivation(const std::string& path) {
   if (fs::is_directory(path, ignored)) return in_folder(path);
   if (path.ends_with(".json")) return path;
   const Provenance provenance = read_provenance(path);
+  if (provenance.derivation.empty())
+    throw Error(fmt::format("{}: was not made of one derivation; name a {}", path, kEnding));
+  if (provenance.settings.empty())
+    throw Error(fmt::format("{}: was made with another grammar or other attributes than its derivation's, which it does "
+                            "not keep; name the {}, with --grammar or -D", path, kEnding));
   const fs::path here = fs::absolute(path).parent_path();
   const fs::path run = (here / provenance.settings_folder).lexically_normal();
   for (const fs::path& folder : {here, run, run / "alternatives"}) {

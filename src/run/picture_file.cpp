@@ -95,6 +95,17 @@ std::optional<Picture> draw_turntable(const Subject& s, const PictureRequest& re
 
 std::string frame_name(std::uint32_t frame) { return fmt::format("{:04}.png", frame + 1); }
 
+/// What is written at the end must not fail then, nor take the place of a frame.
+void prepare_out(const PictureJob& job) {
+  const fs::path out = fs::weakly_canonical(fs::absolute(job.out));
+  if (!fs::is_directory(out.parent_path()))
+    throw Error(fmt::format("{}: the folder {} does not exist", job.out, out.parent_path().string()));
+  if (job.frames.empty() || out.parent_path() != fs::weakly_canonical(fs::absolute(job.frames))) return;
+  for (std::uint32_t frame = 0; frame < job.request.frames; ++frame) {
+    if (out.filename() == frame_name(frame)) throw Error(fmt::format("{}: is one of the frames", job.out));
+  }
+}
+
 /// Makes the folder. Frames of a longer turntable there would go on behind the new ones: an Error.
 void prepare_frames(const std::string& folder, std::uint32_t frames) {
   std::error_code error;
@@ -111,9 +122,14 @@ void check_strip(const PictureRequest& request) {
       request.columns > 0 ? request.columns : strip_columns(request.frames, request.size[0], request.size[1]);
   const std::uint64_t width = columns * request.size[0],
                       height = (request.frames + columns - 1) / columns * request.size[1];
-  if (std::max(width, height) > PictureRequest::kMostStripSide || width * height > PictureRequest::kMostStripPixels)
-    throw Error(fmt::format("a strip of {} frames would have {}x{} pixels, at most {} in all; choose a smaller --size, "
-                            "or --frames without -o", request.frames, width, height, PictureRequest::kMostStripPixels));
+  const auto fail = [&](const std::string& rule) {
+    throw Error(fmt::format("a strip of {} frames must have at most {}, got {}x{}; choose a smaller --size or other "
+                            "--columns, or --frames without -o", request.frames, rule, width, height));
+  };
+  if (std::max(width, height) > PictureRequest::kMostStripSide)
+    fail(fmt::format("{} pixels a side", PictureRequest::kMostStripSide));
+  if (width * height > PictureRequest::kMostStripPixels)
+    fail(fmt::format("{} pixels", PictureRequest::kMostStripPixels));
 }
 
 void check(const PictureJob& job) {
@@ -143,11 +159,12 @@ PictureReport write_pictures(const PictureJob& job, MeshSource& source, Executor
     write_file(path, png_of(picture, request, provenance));
     report.written.push_back(path);
   };
+  if (!job.frames.empty()) prepare_frames(job.frames, job.request.frames);
+  if (!job.out.empty()) prepare_out(job);
   if (job.request.frames == 0) {
     write(job.out, draw_one(subject, job.request, executor), job.request);
     return report;
   }
-  if (!job.frames.empty()) prepare_frames(job.frames, job.request.frames);
   const TakeFrame take = [&](std::uint32_t number, const Picture& frame) {
     if (job.frames.empty()) return;
     PictureRequest request = job.request;
@@ -166,6 +183,7 @@ std::string picture_again(const PictureRequest& request, const Derivation& deriv
   Subject subject = subject_of(grammar, derivation, request.view, source);
   if (request.targets) subject.ghosts = scene_targets(provenance, name, folder, source);
   if (request.frames == 0) return png_of(draw_one(subject, request, executor), request, provenance);
+  if (!request.frame) check_strip(request);
   std::optional<Picture> frame;
   const TakeFrame take = [&](std::uint32_t, const Picture& picture) { frame = picture; };
   const std::optional<Picture> strip = draw_turntable(subject, request, !request.frame, take, executor);

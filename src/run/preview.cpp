@@ -41,11 +41,14 @@ std::string silhouette_text(const Preview& preview, std::size_t index) {
   const DrawingCounts counts = count_drawing(target.settings().image);
   return fmt::format(
       "{}: {} x {} pixels, {} wanted, {} to be left free, {} do not matter\n  {}\n"
-      "  at best {:.6g}{}; {} grown for a look cover {:.0f} % of what is wanted\n",
+      "  at best {:.6g}{}{}\n",
       target.name(), target.settings().image.width, target.settings().image.height, counts.wanted, counts.to_avoid,
       counts.indifferent, camera_in_words(scene), target.optimum(),
-      scene.weight == 1 ? "" : fmt::format(", weight {:g}", scene.weight), counted(preview.reach.models, "model"),
-      100 * preview.reach.silhouettes[index]);
+      scene.weight == 1 ? "" : fmt::format(", weight {:g}", scene.weight),
+      counts.wanted == 0 ? ""
+                         : fmt::format("; {} grown for a look cover {:.0f} % of what is wanted",
+                                       counted(preview.reach.models, "model"),
+                                       100 * preview.reach.silhouettes[index]));
 }
 
 std::string volume_text(const Preview& preview) {

@@ -141,7 +141,10 @@ TEST_F(RenderVerb, BadArgumentsAreToldAndWriteNothing) {
       {{"-o", "x.png", "--frames", "x"}, "--frames needs --turntable"},
       {{"-o", "x.png", "--turntable", "1"}, "--turntable must be from 2 to 3600, got 1"},
       {{"-o", "x.png", "--turntable", "4", "--columns", "5"}, "--columns must be at most the 4 frames, got 5"},
-      {{"-o", "x.png", "--turntable", "400", "--size", "2000x2000"}, "a strip of 400 frames would have"},
+      {{"-o", "x.png", "--turntable", "0"}, "--turntable must be from 2 to 3600, got 0"},
+      {{"-o", "nowhere/x.png"}, "nowhere/x.png: the folder"},
+      {{"-o", "f/0001.png", "--turntable", "3", "--frames", "f"}, "f/0001.png: is one of the frames"},
+      {{"-o", "x.png", "--turntable", "400", "--size", "2000x2000"}, "a strip of 400 frames must have at most"},
       {{"-o", "none/x.png", "--size", "8x8"}, "none/x.png"},
   };
   const auto before = read_tree(folder_.path());

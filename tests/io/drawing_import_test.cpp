@@ -144,8 +144,8 @@ TEST(Drawing, DamagedFilesAreNamed) {
   EXPECT_THAT(message(good + "x"), HasSubstr("17 bytes of pixels instead of 16"));
   EXPECT_THAT(message("Pf\n2 2"), HasSubstr("header is cut short"));
   EXPECT_THAT(message("Pf\n"), HasSubstr("header is cut short"));
-  EXPECT_THAT(message("Pf\n2 x\n-1\n0000"), HasSubstr("its height must be a number"));
-  EXPECT_THAT(message("Pf\n-2 2\n-1\n0000"), HasSubstr("its width must be a number"));
+  EXPECT_THAT(message("Pf\n2 x\n-1\n0000"), HasSubstr("its height must be a whole number, got \"x\""));
+  EXPECT_THAT(message("Pf\n-2 2\n-1\n0000"), HasSubstr("its width must be a whole number, got \"-2\""));
   EXPECT_THAT(message("Pf\n0 2\n-1\n"), HasSubstr("it has no pixels"));
   EXPECT_THAT(message("Pf\n1 1\n0\n0000"), HasSubstr("its scale must be"));
   EXPECT_THAT(message("Pf\n1 1\nnan\n0000"), HasSubstr("its scale must be"));

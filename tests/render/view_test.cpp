@@ -101,7 +101,7 @@ TEST(View, PicturePointsAreWhereRaysGo) {
   const Lens pinhole = lens_of_angle(50, 160, 120), parallel = parallel_lens(2, 160, 120);
   for (const Lens& lens : {pinhole, parallel}) {
     for (const Vec3& eye : {Vec3(1, 2, 3), Vec3(0, 5, 0), Vec3(0, -5, 0), Vec3(400, 30, -20)}) {
-      const Camera camera = placed_camera(eye, Vec3(0.1f, 0, -0.2f), lens);
+      const Camera camera = placed_camera(eye, glm::dvec3(Vec3(0.1f, 0, -0.2f)) - glm::dvec3(eye), lens);
       EXPECT_NEAR(glm::length(camera.up), 1, 1e-5);
       for (const Vec2& point : {Vec2(0, 0), Vec2(0.7f, -0.3f), Vec2(-1, 1)}) {
         const Vec3 seen = camera.picture_point(camera.ray(point.x, point.y).at(3));
@@ -190,7 +190,7 @@ TEST(Coverage, NoRayOutsideMeetsAPart) {
   std::size_t outside = 0, inside = 0;
   for (const Vec3& eye : {Vec3(2, 1, 3), Vec3(0.3f, 0.1f, 0.2f), Vec3(-20, 4, 1)}) {
     for (const Lens& lens : {lens_of_angle(eye.x < -5 ? 8 : 60, 160, 120), parallel_lens(3, 160, 120)}) {
-      const Camera camera = placed_camera(eye, Vec3(0), lens);
+      const Camera camera = placed_camera(eye, -glm::dvec3(eye), lens);
       Coverage coverage(camera, 160, 120);
       coverage.add(set.opaque), coverage.add(set.translucent);
       for (std::uint32_t y = 0; y < 120; ++y) {
