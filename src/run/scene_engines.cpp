@@ -25,11 +25,6 @@ std::optional<EngineKind> engine_named(std::string_view name) {
   return static_cast<EngineKind>(found - kEngineNames.begin());
 }
 
-template <typename T, typename U>
-void take(T& place, const std::optional<U>& value) {
-  if (value) place = static_cast<T>(*value);
-}
-
 /// All but the preset.
 void read_ga(TomlSection& s, GaSettings& ga) {
   take(ga.population, s.whole("population", 2, 1'000'000));

@@ -16,11 +16,6 @@ constexpr Choice<ParticleWeight> kWeights[] = {{"exponential", ParticleWeight::e
                                                {"ratio", ParticleWeight::ratio}};
 constexpr Choice<PlaceChoice> kPlaceChoices[] = {{"uniform", PlaceChoice::uniform}, {"level", PlaceChoice::by_level}};
 
-template <typename T, typename U>
-void take(T& place, const std::optional<U>& value) {
-  if (value) place = static_cast<T>(*value);
-}
-
 std::string temperature_line(const std::optional<double>& temperature) {
   return temperature ? fmt::format("temperature = {}\n", format_toml(*temperature)) : "";
 }

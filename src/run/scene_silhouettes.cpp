@@ -15,11 +15,6 @@ namespace {
 constexpr float kFarthest = 1e6f;
 constexpr double kMostWeight = 1e6;
 
-template <typename To, typename From>
-void take(To& to, const std::optional<From>& from) {
-  if (from) to = static_cast<To>(*from);
-}
-
 DVec3 wide(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 /// From `at` towards a camera: azimuth 0 looks from +z, 90 degrees from +x; elevation upwards.

@@ -19,11 +19,6 @@ constexpr std::uint64_t kMostWhole = std::uint64_t{1} << 53;
 constexpr float kFarthest = 1e6f;  // coordinates, metres
 constexpr double kMostWeight = 1e9;
 
-template <typename T, typename U>
-void take(T& place, const std::optional<U>& value) {
-  if (value) place = static_cast<T>(*value);
-}
-
 void read_budget(const TomlValue& table, const std::string& file, SceneBudget& budget) {
   TomlSection s(table, file, "budget");
   budget.seconds = s.number("seconds", 1e-3, 1e7);

@@ -68,6 +68,12 @@ class TomlSection {
   std::vector<std::string> known_;
 };
 
+/// What was given replaces what is there.
+template <typename T, typename U>
+void take(T& place, const std::optional<U>& value) {
+  if (value) place = static_cast<T>(*value);
+}
+
 /// The nearest of `known` to `word` by edit distance, if it is near enough to be meant; else empty.
 std::string nearest_word(std::string_view word, std::span<const std::string> known);
 

@@ -2,6 +2,7 @@
 // What engines see of scoring: a batch of derivations in, their scores out. Threads, models and targets stay behind it.
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -9,11 +10,14 @@
 
 namespace espalier {
 
+/// The score of what is not acceptable.
+inline constexpr double kNotAcceptable = -std::numeric_limits<double>::infinity();
+
 class BatchScorer {
  public:
   virtual ~BatchScorer() = default;
 
-  /// scores[i] = score of *derivations[i]; higher is better. Finite, or -infinity for what is not acceptable (beyond a
+  /// scores[i] = score of *derivations[i]; higher is better. Finite, or kNotAcceptable (beyond a
   /// hard limit): engines never keep that, but redraw it. The same for any number of threads.
   virtual void score(std::span<const Derivation* const> derivations, std::span<double> scores) = 0;
 

@@ -2,19 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "base/check.h"
 #include "search/require.h"
 
 namespace espalier {
-namespace {
-
-constexpr double kNotAcceptable = -std::numeric_limits<double>::infinity();
-
-}  // namespace
-
 GaEngine::GaEngine(const SearchProblem& problem, const GaSettings& settings)
     : problem_(problem),
       settings_(validated(settings)),

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -16,7 +15,6 @@
 namespace espalier {
 namespace {
 
-constexpr double kNotAcceptable = -std::numeric_limits<double>::infinity();
 // Attempts per individual, over all rounds; each has a stream of its own.
 constexpr std::uint32_t kMostStarts = 100;
 static_assert(kMostStartRounds <= kMostStarts);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "base/check.h"
@@ -15,8 +14,6 @@
 
 namespace espalier {
 namespace {
-
-constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
 /// Chance that a proposal drawn from the prior is accepted.
 double acceptance(double beta, double score_before, double score_after) {
@@ -142,7 +139,7 @@ void RjmcmcEngine::score_made() {
   if (!batch_.empty()) problem_.scorer->score(batch_, scores_);
   evaluations_ += batch_.size();
   for (std::size_t k = 0; k < batch_.size(); ++k) {
-    CHECK(scores_[k] == kNothing || std::isfinite(scores_[k]));
+    CHECK(scores_[k] == kNotAcceptable || std::isfinite(scores_[k]));
     tries_[batch_places_[k]].score = scores_[k];
   }
 }
@@ -151,7 +148,7 @@ double RjmcmcEngine::log_acceptance(std::size_t place) const {
   const Try& one = tries_[place];
   const double b = beta(rung_of(place)), before = states_[place].score;
   const double plain = one.log_ratio + b * (one.score - before);
-  if (one.kind != ProposalKind::delayed || one.score == kNothing) return plain;
+  if (one.kind != ProposalKind::delayed || one.score == kNotAcceptable) return plain;
   // The way back would have been rejected first too: fresh draws are as likely from either side.
   const double there = 1 - acceptance(b, before, one.rejected_score);
   const double back = 1 - acceptance(b, one.score, one.rejected_score);

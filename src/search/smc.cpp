@@ -16,12 +16,6 @@
 #include "search/temperature.h"
 
 namespace espalier {
-namespace {
-
-constexpr double kNothing = -std::numeric_limits<double>::infinity();
-
-}  // namespace
-
 SmcEngine::SmcEngine(const SearchProblem& problem, const SmcSettings& settings)
     : problem_(problem), settings_(validated(settings)) {
   CHECK(problem_.scorer != nullptr);
@@ -149,8 +143,8 @@ void SmcEngine::admit(std::size_t particle) {
 
 /// The dead keep their place until the particles are sorted.
 void SmcEngine::bury(std::size_t particle) {
-  particles_[particle].score = kNothing;
-  log_weights_[particle] = kNothing;
+  particles_[particle].score = kNotAcceptable;
+  log_weights_[particle] = -std::numeric_limits<double>::infinity();
 }
 
 double SmcEngine::increment(double before, double after) const {
@@ -169,7 +163,7 @@ void SmcEngine::score_grown() {
   evaluations_ += batch_.size();
   for (std::size_t k = 0; k < grown_.size(); ++k) {
     const std::size_t i = grown_[k];
-    if (scores_[k] == kNothing) {
+    if (scores_[k] == kNotAcceptable) {
       ++counts_.rejected_particles;
       bury(i);
       continue;
@@ -194,7 +188,7 @@ void SmcEngine::sort_particles() {
   }
   particles_.swap(scratch_);
   log_weights_.swap(log_scratch_);
-  while (living_ > 0 && particles_[living_ - 1].score == kNothing) --living_;
+  while (living_ > 0 && particles_[living_ - 1].score == kNotAcceptable) --living_;
 }
 
 void SmcEngine::remember_best() {
