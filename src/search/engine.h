@@ -41,6 +41,12 @@ struct NamedCount {
   bool operator==(const NamedCount&) const = default;
 };
 
+/// One of an engine's figures of the moment: a rate, a share, an effective number. Not a number: nothing to tell yet.
+struct NamedGauge {
+  std::string name;
+  double value = 0;
+};
+
 class Engine {
  public:
   virtual ~Engine() = default;
@@ -57,6 +63,8 @@ class Engine {
   virtual const Individual& best() const = 0;
   /// What happened inside, by name, in a fixed order.
   virtual std::vector<NamedCount> diagnostics() const = 0;
+  /// How well it goes, by name, in a fixed order: equal states give equal gauges, a loaded state too.
+  virtual std::vector<NamedGauge> gauges() const { return {}; }
 
   /// Writes the whole state: an engine of the same problem and settings that loads it goes on as if never stopped.
   virtual void save(std::ostream& out) const = 0;
