@@ -5,6 +5,18 @@
 #include "derivation/sample.h"
 
 namespace espalier {
+namespace {
+
+double mean_distance(const std::vector<ModelSketch>& sketches) {
+  double sum = 0;
+  std::uint64_t pairs = 0;
+  for (std::size_t i = 0; i < sketches.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k, ++pairs) sum += distance(sketches[i], sketches[k]);
+  }
+  return pairs > 0 ? sum / static_cast<double>(pairs) : 0;
+}
+
+}  // namespace
 
 DiverseArchive::DiverseArchive(ModelSketcher sketcher, std::size_t size, double least_distance)
     : sketcher_(std::move(sketcher)), size_(size), least_distance_(least_distance) {}
@@ -30,6 +42,14 @@ std::vector<Individual> DiverseArchive::apart_from(const Derivation& derivation)
     }
   }
   return result;
+}
+
+double DiverseArchive::spread() const { return mean_distance(sketches_); }
+
+double DiverseArchive::spread_of(std::span<const Individual> individuals) {
+  std::vector<ModelSketch> sketches(individuals.size());
+  for (std::size_t i = 0; i < individuals.size(); ++i) sketcher_.draw(individuals[i].derivation, sketches[i]);
+  return mean_distance(sketches);
 }
 
 void DiverseArchive::offer(const Individual& individual) {

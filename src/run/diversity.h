@@ -23,6 +23,10 @@ class DiverseArchive {
   const std::vector<Individual>& members() const { return members_; }
   /// Those at least `least_distance` from `derivation` too, one less than the archive's size at most.
   std::vector<Individual> apart_from(const Derivation& derivation);
+  /// The mean distance of any two members, in [0, 1]; 0 where there are fewer than two.
+  double spread() const;
+  /// The same of any individuals.
+  double spread_of(std::span<const Individual> individuals);
 
  private:
   void offer(const Individual& individual);

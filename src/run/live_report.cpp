@@ -64,10 +64,9 @@ class LiveReport::Painter {
   void paint(const Snapshot& snapshot) {
     if (!targets_) targets_ = target_pictures(setup_, look_, *executor_);
     result_.best = snapshot.best;
-    result_.log.insert(result_.log.end(), snapshot.steps.begin(), snapshot.steps.end());
-    result_.steps = result_.log.back().step;
-    result_.evaluations = result_.log.back().evaluations;
-    result_.seconds = result_.log.back().seconds;
+    result_.log = snapshot.log;
+    const StepReport last = result_.log.steps().back();
+    result_.steps = last.step, result_.evaluations = last.evaluations, result_.seconds = last.seconds;
     result_.explanation = scorer_.explain(result_.best.derivation);
     expander_.expand(result_.best.derivation, ExpandTo::full, model_);
     const std::vector<Material>& materials = setup_.graph().materials;
@@ -127,11 +126,10 @@ LiveReport::LiveReport(const Setup& setup, std::string settings, std::string fol
 LiveReport::~LiveReport() { end(); }
 
 void LiveReport::stepped(const StepReport& report, const Individual& best) {
-  pending_.push_back(report);
+  log_.add(report);
   const std::lock_guard lock(mutex_);
   if (!idle_ || snapshot_ || report.seconds < due_s_ || !problem_.empty() || !affordable()) return;
-  snapshot_ = Snapshot{best, std::move(pending_)};
-  pending_.clear();
+  snapshot_ = Snapshot{best, log_};
   due_s_ = report.seconds + refresh_seconds_;
   wake_.notify_one();
 }

@@ -33,7 +33,7 @@ class LiveReport final : public SearchWatcher {
   class Painter;
   struct Snapshot {
     Individual best;
-    std::vector<StepReport> steps;  // since the last one
+    SearchLog log;
   };
 
   void work();
@@ -42,7 +42,7 @@ class LiveReport final : public SearchWatcher {
   const double refresh_seconds_;
   const double before_s_;  // computing time of the process before the search
   std::unique_ptr<Painter> painter_;
-  std::vector<StepReport> pending_;  // the search's own
+  SearchLog log_;  // the search's own
 
   std::mutex mutex_;
   std::condition_variable wake_;

@@ -32,7 +32,7 @@ std::string dump(const ordered_json& json) {
 
 /// One member a line, so that the line with times can be told.
 std::string data_json(const ReportInput& input) {
-  const std::vector<StepReport>& log = input.result.log;
+  const std::vector<StepReport> log = input.result.log.steps();
   ordered_json seconds = ordered_json::array(), evaluations = seconds, best = seconds, mean = seconds;
   for (const std::size_t i : points_of(log.size())) {
     seconds.push_back(static_cast<double>(static_cast<std::int64_t>(log[i].seconds * 1e4 + 0.5)) / 1e4);

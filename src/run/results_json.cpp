@@ -58,7 +58,7 @@ void ResultWriter::write_result(const std::string& path) const {
 
 void ResultWriter::write_convergence(const std::string& path) const {
   std::string text = "step,evaluations,seconds,best,mean\n";
-  for (const StepReport& r : result_.log) {
+  for (const StepReport& r : result_.log.steps()) {
     text += fmt::format("{},{},{:.6f},{},{}\n", r.step, r.evaluations, r.seconds, r.best, r.mean);
   }
   write_file(path, text);

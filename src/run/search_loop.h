@@ -6,12 +6,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "base/executor.h"
 #include "run/progress.h"
-#include "run/setup.h"
-#include "search/engine.h"
+#include "run/search_session.h"
 
 namespace espalier {
 
@@ -28,18 +26,6 @@ struct SearchControl {
   const std::atomic<bool>* stop = nullptr;   // set from outside: end after the step that runs
   RunObserver* observer = nullptr;
   SearchWatcher* watcher = nullptr;
-};
-
-struct SearchResult {
-  Individual best;
-  std::vector<Individual> alternatives;  // best first, far from the best and from each other
-  Explanation explanation;               // of the best
-  std::vector<StepReport> log;           // one per step
-  std::vector<NamedCount> diagnostics;
-  std::vector<Rejections> rejections;    // by hard limit
-  std::uint64_t steps = 0, evaluations = 0;
-  double seconds = 0;
-  std::string stopped_by;
 };
 
 /// Empty if `stop` was set before the first step ended. Throws Error for a grammar that does not suit the engine.

@@ -126,7 +126,7 @@ TEST(LiveReport, WhatCannotBeWrittenIsTold) {
   const auto result = run_search(*setup, control, *executor);
   LiveReport live(*setup, "", folder / "nowhere", folder / "out", 0.001);
   live.stepped({1, 10, 5.0, 1, 1}, result->best);
-  for (int i = 2; i < 500; ++i) wait_a_little(), live.stepped({2, 20, 5.0 + i, 1, 1}, result->best);
+  for (int i = 2; i < 500; ++i) wait_a_little(), live.stepped({static_cast<std::uint64_t>(i), 20, 5.0 + i, 1, 1}, result->best);
   EXPECT_THAT(live.end(), HasSubstr("nowhere/best.png"));
 }
 
