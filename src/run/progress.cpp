@@ -124,6 +124,10 @@ std::string summary(const RunEnd& end) {
   text += fmt::format("\n{} evaluations in {} steps and {:.1f} s ({:.0f} per second), ended by {}\n", end.evaluations,
                       end.steps, end.seconds,
                       end.seconds > 0 ? static_cast<double>(end.evaluations) / end.seconds : 0.0, end.stopped_by);
+  if (end.alternatives > 0) {
+    text += fmt::format("{} alternative{}, on average {:.2f} apart (0: alike, 1: nothing in common)\n", end.alternatives,
+                        end.alternatives == 1 ? "" : "s", end.spread);
+  }
   for (const std::string& file : end.files) text += "wrote " + file + "\n";
   return text;
 }

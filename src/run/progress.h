@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "run/scene.h"
+#include "search/engine.h"
 
 namespace espalier {
 
@@ -38,6 +39,8 @@ struct RunEnd {
   double score = 0, optimum = 0;
   std::optional<double> percent;
   std::string words;
+  std::size_t alternatives = 0;
+  double spread = 0;        // mean distance of any two of the best and these
   std::uint64_t steps = 0, evaluations = 0;
   double seconds = 0;
   std::string stopped_by;  // "seconds", "evaluations", "generations" or "interrupt"
@@ -48,6 +51,8 @@ class RunObserver {
   virtual ~RunObserver() = default;
   virtual void started(const RunStart&) {}
   virtual void step(const StepReport&) {}
+  /// After some of the steps: figures of the moment of the engine and of the alternatives, by name.
+  virtual void gauges(const StepReport&, const std::vector<NamedGauge>&) {}
   virtual void warning(const std::string&) {}
   /// The search is over, its results are being written.
   virtual void writing() {}
@@ -58,7 +63,7 @@ class RunObserver {
 std::unique_ptr<RunObserver> make_bar(std::ostream& out);
 /// For a pipe or file: a line per second at most, then the summary.
 std::unique_ptr<RunObserver> make_lines(std::ostream& out);
-/// One JSON object per line: {"event": "started" | "step" | "warning" | "writing" | "finished", ...}; every step.
+/// One JSON object per line: {"event": "started" | "step" | "gauges" | "warning" | "writing" | "finished", ...}; every step.
 std::unique_ptr<RunObserver> make_json_lines(std::ostream& out);
 
 /// The lines that end a run: score, optimum, percent, words, files.

@@ -1,4 +1,5 @@
 // Progress as JSON lines.
+#include <cmath>
 #include <ostream>
 
 #include <nlohmann/json.hpp>
@@ -39,6 +40,13 @@ class JsonLines final : public RunObserver {
            {"best", report.best},
            {"mean", report.mean}});
   }
+  void gauges(const StepReport& report, const std::vector<NamedGauge>& gauges) override {
+    ordered_json values = ordered_json::object();
+    for (const NamedGauge& gauge : gauges) {
+      values[gauge.name] = std::isfinite(gauge.value) ? ordered_json(gauge.value) : ordered_json();
+    }
+    print({{"event", "gauges"}, {"step", report.step}, {"evaluations", report.evaluations}, {"gauges", values}});
+  }
   void warning(const std::string& text) override { print({{"event", "warning"}, {"message", text}}); }
   void writing() override { print({{"event", "writing"}}); }
   void finished(const RunEnd& end) override {
@@ -47,6 +55,8 @@ class JsonLines final : public RunObserver {
            {"optimum", end.optimum},
            {"percent", end.percent ? ordered_json(*end.percent) : ordered_json()},
            {"words", end.words},
+           {"alternatives", end.alternatives},
+           {"spread", end.spread},
            {"steps", end.steps},
            {"evaluations", end.evaluations},
            {"wall_seconds", end.seconds},

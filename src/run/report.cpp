@@ -7,6 +7,7 @@
 
 #include "base/version.h"
 #include "run/report_assets.h"
+#include "run/report_diagnostics.h"
 #include "run/report_text.h"
 
 namespace espalier {
@@ -119,6 +120,7 @@ std::string report_page(const ReportInput& input) {
                         {"warnings", warnings_html(input.setup.warnings)},
                         {"pictures", pictures_html(input)},
                         {"score", score_html(input.result.explanation)},
+                        {"diagnostics", diagnostics_html(input.result.log, input.result.diagnostics)},
                         {"alternatives", alternatives_html(input)},
                         {"settings", escape_html(input.provenance.settings)},
                         {"provenance", provenance_html(input)},

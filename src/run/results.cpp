@@ -65,8 +65,8 @@ Provenance ResultWriter::provenance(std::size_t index, const std::string& settin
 }
 
 std::vector<std::string> ResultWriter::names() const {
-  std::vector<std::string> names = {"best.derivation.json", "result.json", "convergence.csv", kRunMarker,
-                                    "inputs",               "best.glb",    "best.obj",        "best.png"};
+  std::vector<std::string> names = {"best.derivation.json", "result.json", "convergence.csv", "diagnostics.csv",
+                                    kRunMarker,             "inputs",      "best.glb",        "best.obj", "best.png"};
   for (const std::string& name : outcome_names(setup_)) names.push_back(name);
   for (const char* ending : {".derivation.json", ".glb", ".png"}) {
     for (std::size_t i = 1; i < size(); ++i) names.push_back(alternative_name(i, ending));
@@ -81,6 +81,7 @@ void ResultWriter::write(const std::string& name, const std::string& path) {
   if (name == "inputs") return setup_.inputs.write(fs::path(path).parent_path().string());
   if (name == "result.json") return write_result(path);
   if (name == "convergence.csv") return write_convergence(path);
+  if (name == "diagnostics.csv") return write_diagnostics(path);
   if (name == "alternatives.png") return write_sheet(path);
   if (name == "report.html") return write_report(path);
   if (name.starts_with("best.")) return write_individual(0, path, provenance(0, "."));

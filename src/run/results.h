@@ -49,6 +49,7 @@ class ResultWriter {
   void write_report(const std::string& path);
   void write_result(const std::string& path) const;
   void write_convergence(const std::string& path) const;
+  void write_diagnostics(const std::string& path) const;
 
   const Setup& setup_;
   const SearchResult& result_;

@@ -1,4 +1,6 @@
 // The numbers of a run: result.json and convergence.csv.
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +12,37 @@
 namespace espalier {
 
 using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json gauges_json(const SearchLog& log) {
+  ordered_json gauges = ordered_json::object();
+  if (log.gauge_rows().empty()) return gauges;
+  const std::vector<double>& values = log.gauge_rows().back().row.values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    gauges[log.gauge_names()[i]] = std::isfinite(values[i]) ? ordered_json(values[i]) : ordered_json();
+  }
+  return gauges;
+}
+
+/// Where a name holds a comma, or a quote, it is quoted (RFC 4180).
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+/// A number, or nothing.
+std::string number_cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+
+/// Evaluations per second between two rows.
+std::string speed_cell(const StepReport& from, const StepReport& to) {
+  const double seconds = to.seconds - from.seconds;
+  return seconds > 0 ? fmt::format("{:.1f}", static_cast<double>(to.evaluations - from.evaluations) / seconds) : "";
+}
+
+}  // namespace
 
 void ResultWriter::write_result(const std::string& path) const {
   const Explanation& e = result_.explanation;
@@ -49,8 +82,10 @@ void ResultWriter::write_result(const std::string& path) const {
       {"wall_seconds", result_.seconds},
       {"evaluations_per_second", per_second},
       {"engine_counts", diagnostics},
+      {"engine_gauges", gauges_json(result_.log)},
       {"rejections", rejections},
       {"alternatives", alternatives},
+      {"alternatives_spread", result_.spread},
       {"provenance", ordered_json::parse(to_json(provenance(0, ".")))},
   };
   write_file(path, document.dump(1) + "\n");
@@ -60,6 +95,21 @@ void ResultWriter::write_convergence(const std::string& path) const {
   std::string text = "step,evaluations,seconds,best,mean\n";
   for (const StepReport& r : result_.log.steps()) {
     text += fmt::format("{},{},{:.6f},{},{}\n", r.step, r.evaluations, r.seconds, r.best, r.mean);
+  }
+  write_file(path, text);
+}
+
+void ResultWriter::write_diagnostics(const std::string& path) const {
+  std::string text = "step,evaluations,seconds,evaluations_per_second";
+  for (const std::string& name : result_.log.gauge_names()) text += "," + csv_cell(name);
+  text += "\n";
+  StepReport before;
+  for (const auto& [number, row] : result_.log.gauge_rows()) {
+    const StepReport& r = row.report;
+    text += fmt::format("{},{},{:.6f},{}", r.step, r.evaluations, r.seconds, speed_cell(before, r));
+    for (const double value : row.values) text += "," + number_cell(value);
+    text += "\n";
+    before = r;
   }
   write_file(path, text);
 }

@@ -65,6 +65,8 @@ RunEnd end_of(const SearchResult& result, const Setup& setup, const RunFolder& f
   end.optimum = result.explanation.optimum;
   end.percent = result.explanation.percent;
   end.words = result.explanation.words;
+  end.alternatives = result.alternatives.size();
+  end.spread = result.spread;
   end.steps = result.steps;
   end.evaluations = result.evaluations;
   end.seconds = result.seconds;

@@ -22,6 +22,7 @@ std::optional<SearchResult> run_search(const Setup& setup, const SearchControl& 
     if (session.last().step == 0 && control.stop && control.stop->load()) return std::nullopt;
     const StepReport report = session.step();
     if (control.observer) control.observer->step(report);
+    if (control.observer && session.logged_gauges()) control.observer->gauges(report, session.gauges());
     if (control.watcher) control.watcher->stepped(report, session.engine().best());
     if (std::string reason = reason_to_stop(control, report); !reason.empty()) return session.finish(std::move(reason));
   }

@@ -37,22 +37,22 @@ const StepReport& SearchSession::step() {
            mean_score(engine_->population())};
   if (last_.step % kStepsPerOffer == 1) archive_.offer(engine_->population());
   log_.add(last_);
-  if (log_.wants_gauges(last_.step)) add_gauges();
+  if (log_.wants_gauges(last_.step)) log_.add_gauges(last_, gauges());
   return last_;
 }
 
-void SearchSession::add_gauges() {
+std::vector<NamedGauge> SearchSession::gauges() const {
   std::vector<NamedGauge> gauges = engine_->gauges();
   gauges.push_back({"alternatives", static_cast<double>(archive_.members().size())});
   gauges.push_back({"spread", archive_.spread()});
-  log_.add_gauges(last_, gauges);
+  return gauges;
 }
 
 SearchResult SearchSession::finish(std::string stopped_by) {
   CHECK(!finished_ && last_.step > 0);
   finished_ = true;
   archive_.offer(engine_->population());
-  add_gauges();
+  log_.add_gauges(last_, gauges());
   SearchResult result;
   result.best = engine_->best();
   result.explanation = scorer_.explain(result.best.derivation);

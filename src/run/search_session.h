@@ -46,13 +46,15 @@ class SearchSession {
   const Setup& setup() const { return setup_; }
   const Engine& engine() const { return *engine_; }
   const SearchLog& log() const { return log_; }
+  /// Figures of the engine and of the alternatives after the last step.
+  std::vector<NamedGauge> gauges() const;
+  /// Whether the last step's were kept in the log.
+  bool logged_gauges() const { return log_.wants_gauges(last_.step); }
 
   /// What was found; after the first step. The session cannot go on afterwards.
   SearchResult finish(std::string stopped_by);
 
  private:
-  void add_gauges();
-
   const Setup& setup_;
   SceneScorer scorer_;
   std::unique_ptr<Engine> engine_;

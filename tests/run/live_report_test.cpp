@@ -100,7 +100,7 @@ TEST(LiveReport, ChangesNoResult) {
   auto with = read_tree(folder / "with"), without = read_tree(folder / "without");
   for (auto* files : {&with, &without}) {
     (*files)["report.html"] = testing::without_report_times((*files)["report.html"]);
-    files->erase("result.json"), files->erase("convergence.csv");
+    files->erase("result.json"), files->erase("convergence.csv"), files->erase("diagnostics.csv");
   }
   EXPECT_EQ(with, without);
 }

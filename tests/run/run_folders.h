@@ -35,6 +35,7 @@ inline std::string without_times(const std::string& name, std::string text) {
       const std::size_t second = line.find(',', line.find(',') + 1), third = line.find(',', second + 1);
       line.erase(second, third - second);
     }
+    if (name == "diagnostics.csv") line.erase(0, line.find(',', line.find(',', line.find(',', line.find(',') + 1) + 1) + 1));
     kept += line + "\n";
   }
   return kept;
@@ -43,7 +44,7 @@ inline std::string without_times(const std::string& name, std::string text) {
 inline std::map<std::string, std::string> comparable(const std::string& folder) {
   std::map<std::string, std::string> files = read_tree(folder);
   for (auto& [name, text] : files) {
-    if (name == "result.json" || name == "convergence.csv") text = without_times(name, text);
+    if (name == "result.json" || name.ends_with(".csv")) text = without_times(name, text);
     if (name == "report.html") text = without_report_times(text);
   }
   return files;

@@ -39,8 +39,10 @@ class Recorder final : public RunObserver {
     steps.push_back(report);
     if (on_step) on_step(report);
   }
+  void gauges(const StepReport& report, const std::vector<NamedGauge>&) override { gauge_steps.push_back(report.step); }
   void finished(const RunEnd& end) override { ends.push_back(end); }
 
+  std::vector<std::uint64_t> gauge_steps;
   std::vector<StepReport> steps;
   std::vector<RunEnd> ends;
   std::function<void(const StepReport&)> on_step;
@@ -59,8 +61,8 @@ TEST(Run, LeavesAWholeFolder) {
   EXPECT_THAT(names, ElementsAre("alternatives.png", "alternatives/01.derivation.json", "alternatives/01.glb",
                                  "alternatives/01.png", "alternatives/02.derivation.json", "alternatives/02.glb",
                                  "alternatives/02.png", "best.derivation.json", "best.glb", "best.mtl", "best.obj",
-                                 "best.png", "convergence.csv", "inputs/pile.esp", "inputs/targets/tower.obj",
-                                 "report.html", "result.json", "run.toml", "volume.png"));
+                                 "best.png", "convergence.csv", "diagnostics.csv", "inputs/pile.esp",
+                                 "inputs/targets/tower.obj", "report.html", "result.json", "run.toml", "volume.png"));
   const auto result = nlohmann::json::parse(read_text(folder / "out/result.json"));
   ASSERT_EQ(recorder.ends.size(), 1u);
   EXPECT_EQ(result["score"], recorder.ends[0].score);
@@ -73,6 +75,23 @@ TEST(Run, LeavesAWholeFolder) {
   EXPECT_EQ(result["alternatives"].size(), 2u);
   EXPECT_LE(result["alternatives"][0]["score"], result["score"]);
   for (const std::string& file : recorder.ends[0].files) EXPECT_TRUE(fs::exists(file)) << file;
+}
+
+TEST(Run, TellsHowTheEngineDid) {
+  const TemporaryFolder folder;
+  write_pile(folder);
+  Recorder recorder;
+  ASSERT_TRUE(run_in(folder, "out", 1, &recorder));
+  const auto result = nlohmann::json::parse(read_text(folder / "out/result.json"));
+  const std::string csv = read_text(folder / "out/diagnostics.csv");
+  EXPECT_TRUE(csv.starts_with("step,evaluations,seconds,evaluations_per_second,")) << csv;
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7) << "a line of names and one per step";
+  EXPECT_EQ(recorder.gauge_steps, (std::vector<std::uint64_t>{1, 2, 3, 4, 5, 6}));
+  EXPECT_GE(result["engine_gauges"]["alternatives"], 2);
+  EXPECT_GE(result["alternatives_spread"], 0.2) << "the least distance of any two";
+  EXPECT_LE(result["alternatives_spread"], 1);
+  EXPECT_EQ(recorder.ends[0].spread, result["alternatives_spread"]);
+  EXPECT_THAT(read_text(folder / "out/report.html"), HasSubstr("<th scope=\"row\">spread</th>"));
 }
 
 TEST(Run, SameSeedSameBytesForAnyNumberOfThreads) {
