@@ -23,11 +23,12 @@ double mean_score(std::span<const Individual> population) {
 
 }  // namespace
 
-SearchSession::SearchSession(const Setup& setup, Executor& executor)
+SearchSession::SearchSession(const Setup& setup, Executor& executor, StopwatchClock clock)
     : setup_(setup),
       scorer_(setup.graph(), setup.objective, executor),
       engine_(make_engine(setup.scene.search, {setup.grammar.graph, {}, &scorer_, setup.scene.seed, 0})),
-      archive_(make_archive(setup)) {}
+      archive_(make_archive(setup)),
+      watch_(clock) {}
 
 const StepReport& SearchSession::step() {
   CHECK(!finished_);

@@ -32,7 +32,7 @@ struct SearchResult {
 class SearchSession {
  public:
   /// Both must outlive it. Throws Error for settings that do not suit.
-  SearchSession(const Setup& setup, Executor& executor);
+  SearchSession(const Setup& setup, Executor& executor, StopwatchClock clock = StopwatchClock::wall);
   SearchSession(const SearchSession&) = delete;
   SearchSession& operator=(const SearchSession&) = delete;
 
