@@ -1,8 +1,6 @@
 #include "search/ga.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/check.h"
 #include "search/require.h"
@@ -71,14 +69,8 @@ void GaEngine::score_newcomers() {
 }
 
 void GaEngine::sort_newcomers() {
-  order_.resize(newcomers_.size());
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) {
-    return newcomers_[a].score != newcomers_[b].score ? newcomers_[a].score > newcomers_[b].score : a < b;
-  });
-  // The old population is spent: its places take the sorted newcomers, and give their storage in return.
-  population_.resize(newcomers_.size());
-  for (std::size_t rank = 0; rank < order_.size(); ++rank) std::swap(population_[rank], newcomers_[order_[rank]]);
+  best_first_.sort(newcomers_);
+  population_.swap(newcomers_);  // the old population is spent, and gives its storage
 }
 
 }  // namespace espalier

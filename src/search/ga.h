@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "derivation/join.h"
+#include "search/best_first.h"
 #include "search/engine.h"
 #include "search/ga_settings.h"
 #include "search/ga_variation.h"
@@ -90,7 +91,7 @@ class GaEngine final : public Engine {
   std::vector<double> scores_;
   std::vector<const Derivation*> batch_;
   std::vector<std::size_t> batch_places_;
-  std::vector<std::size_t> order_;
+  BestFirst best_first_;
   struct Known {
     std::uint64_t hash;
     std::size_t index;

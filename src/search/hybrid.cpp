@@ -24,13 +24,6 @@ constexpr std::uint64_t kMagic = 0x0a59'4850'5345ull;  // the bytes "ESPHY\n"
 constexpr std::uint64_t kStateVersion = 1;
 constexpr const char* kStages[] = {"sosmc", "ga", "rjmcmc"};
 
-std::uint64_t count_of(const Engine& engine, std::string_view name) {
-  for (const NamedCount& count : engine.diagnostics()) {
-    if (count.name == name) return count.value;
-  }
-  return 0;
-}
-
 }  // namespace
 
 void validate(const HybridSettings& s) {
@@ -89,7 +82,8 @@ void HybridEngine::step() {
 
 bool HybridEngine::is_over() const {
   if (stage_ == Stage::start) {
-    return count_of(*engine_, "sweeps") >= settings_.sweeps || engine_->evaluations() >= settings_.start_evaluations;
+    const auto& start = static_cast<const SmcEngine&>(*engine_);
+    return start.sweeps() >= settings_.sweeps || start.evaluations() >= settings_.start_evaluations;
   }
   return stage_ == Stage::middle && evaluations() - risen_at_ >= settings_.patience;
 }

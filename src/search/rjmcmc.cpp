@@ -189,20 +189,8 @@ void RjmcmcEngine::swap_rungs() {
 }
 
 void RjmcmcEngine::sort_states() {
-  const auto before = [this](std::size_t a, std::size_t b) {
-    return states_[a].score != states_[b].score ? states_[a].score > states_[b].score : chain_of_[a] < chain_of_[b];
-  };
-  order_.resize(states_.size());
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::sort(order_.begin(), order_.end(), before);
-  state_scratch_.resize(states_.size());
-  chain_scratch_.resize(states_.size());
-  for (std::size_t rank = 0; rank < order_.size(); ++rank) {
-    std::swap(state_scratch_[rank], states_[order_[rank]]);
-    chain_scratch_[rank] = chain_of_[order_[rank]];
-  }
-  states_.swap(state_scratch_);
-  chain_of_.swap(chain_scratch_);
+  best_first_.sort(states_, [this](std::size_t place) { return chain_of_[place]; });
+  best_first_.follow(chain_of_, chain_scratch_);
 }
 
 }  // namespace espalier

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "search/best_first.h"
 #include "search/engine.h"
 #include "search/rjmcmc_settings.h"
 
@@ -96,8 +97,7 @@ class RjmcmcEngine final : public Engine {
   std::vector<const Derivation*> batch_;
   std::vector<std::size_t> batch_places_;
   std::vector<double> scores_;
-  std::vector<std::size_t> order_;
-  std::vector<Individual> state_scratch_;
+  BestFirst best_first_;
   std::vector<std::uint32_t> chain_scratch_;
 };
 

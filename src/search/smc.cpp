@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -175,19 +174,8 @@ void SmcEngine::score_grown() {
 }
 
 void SmcEngine::sort_particles() {
-  order_.resize(particles_.size());
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) {
-    return particles_[a].score != particles_[b].score ? particles_[a].score > particles_[b].score : a < b;
-  });
-  scratch_.resize(particles_.size());
-  log_scratch_.resize(particles_.size());
-  for (std::size_t rank = 0; rank < order_.size(); ++rank) {
-    std::swap(scratch_[rank], particles_[order_[rank]]);
-    log_scratch_[rank] = log_weights_[order_[rank]];
-  }
-  particles_.swap(scratch_);
-  log_weights_.swap(log_scratch_);
+  best_first_.sort(particles_);
+  best_first_.follow(log_weights_, log_scratch_);
   while (living_ > 0 && particles_[living_ - 1].score == kNotAcceptable) --living_;
 }
 

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "search/best_first.h"
 #include "search/engine.h"
 #include "search/smc_settings.h"
 
@@ -59,6 +60,8 @@ class SmcEngine final : public Engine {
   double beta() const { return beta_; }
   /// log weights of population(), not normalised.
   std::span<const double> log_weights() const { return std::span(log_weights_).first(living_); }
+  /// Sweeps that have ended.
+  std::uint64_t sweeps() const { return counts_.sweeps; }
   /// The sweep has ended: the next step begins another.
   bool sweep_is_over() const { return sweep_step_ == 0; }
   /// Of the sweep so far: log of the unbiased estimate of the integral above; -infinity where no particle is left.
@@ -103,7 +106,7 @@ class SmcEngine final : public Engine {
   std::vector<const Derivation*> batch_;
   std::vector<double> scores_, weights_;
   std::vector<std::uint32_t> ancestors_;
-  std::vector<std::size_t> order_;
+  BestFirst best_first_;
   std::vector<Individual> scratch_;
   std::vector<double> log_scratch_;
 };
