@@ -23,11 +23,13 @@ double acceptance(double beta, double score_before, double score_after) {
 }  // namespace
 
 RjmcmcEngine::RjmcmcEngine(const SearchProblem& problem, const RjmcmcSettings& settings)
-    : problem_(problem), settings_(validated(settings)) {
+    : problem_(problem),
+      settings_(validated(settings)),
+      counts_(settings_.temperatures),
+      counts_then_(counts_),
+      recent_(counts_) {
   CHECK(problem_.scorer != nullptr);
   beta_ = inverse_temperature(settings_.temperature, problem_.scorer->optimum(), 1000);
-  counts_.resize(settings_.temperatures);
-  swaps_.resize(settings_.temperatures - 1);
 }
 
 const Individual& RjmcmcEngine::best() const {
@@ -58,7 +60,9 @@ void RjmcmcEngine::step() {
   }
   sort_states();
   if (steps_ == 0 || states_.front().score > best_.score) best_ = states_.front();
-  ++steps_;
+  if (++steps_ % kGaugeSteps != 0) return;
+  recent_ = difference(counts_, counts_then_);
+  counts_then_ = counts_;
 }
 
 void RjmcmcEngine::make_initial_states() {
@@ -109,7 +113,7 @@ void RjmcmcEngine::propose() {
     }
     one.made = ratio && within_limits(next);
     one.log_ratio = ratio.value_or(0);
-    ++counts_[rung_of(i)][static_cast<std::size_t>(one.kind)].proposed;
+    ++count_of(i).proposed;
   }
 }
 
@@ -123,7 +127,7 @@ void RjmcmcEngine::propose_delayed() {
     one.rejected_score = one.score;
     proposals_[i] = states_[i].derivation;
     nudge_gene(*problem_.graph, proposals_[i], one.gene, one.random);
-    ++counts_[rung_of(i)][static_cast<std::size_t>(one.kind)].proposed;
+    ++count_of(i).proposed;
   }
 }
 
@@ -163,7 +167,7 @@ void RjmcmcEngine::decide() {
     if (!(u < natural_exp(log_acceptance(i)))) continue;
     std::swap(states_[i].derivation, proposals_[i]);
     states_[i].score = one.score;
-    ++counts_[rung_of(i)][static_cast<std::size_t>(one.kind)].accepted;
+    ++count_of(i).accepted;
     one.made = false;
   }
 }
@@ -180,9 +184,9 @@ void RjmcmcEngine::swap_rungs() {
     std::size_t& cold = place_of[chain];
     std::size_t& hot = place_of[chain + 1];
     const double log_ratio = (beta(rung) - beta(rung + 1)) * (states_[hot].score - states_[cold].score);
-    ++swaps_[rung].proposed;
+    ++counts_.swaps[rung].proposed;
     if (!(random.next_unit() < natural_exp(log_ratio))) continue;
-    ++swaps_[rung].accepted;
+    ++counts_.swaps[rung].accepted;
     std::swap(chain_of_[cold], chain_of_[hot]);
     std::swap(cold, hot);
   }

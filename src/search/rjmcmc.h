@@ -29,6 +29,16 @@ struct ProposalCount {
   bool operator==(const ProposalCount&) const = default;
 };
 
+/// Proposals by rung and kind, and tries to swap each rung but the last with the next.
+struct RjmcmcCounts {
+  explicit RjmcmcCounts(std::size_t rungs = 1) : proposals(rungs), swaps(rungs - 1) {}
+
+  std::vector<std::array<ProposalCount, kProposalKinds>> proposals;
+  std::vector<ProposalCount> swaps;
+};
+/// What came to `before` until `after`.
+RjmcmcCounts difference(const RjmcmcCounts& after, const RjmcmcCounts& before);
+
 class RjmcmcEngine final : public Engine {
  public:
   /// Throws Error for bad settings.
@@ -44,6 +54,8 @@ class RjmcmcEngine final : public Engine {
   std::span<const Individual> population() const override { return states_; }
   const Individual& best() const override;
   std::vector<NamedCount> diagnostics() const override;
+  /// Rates of acceptance are of the last kGaugeSteps steps that are complete, of the kGaugeRungs coldest rungs.
+  std::vector<NamedGauge> gauges() const override;
   void save(std::ostream& out) const override;
   void load(std::istream& in) override;
 
@@ -53,10 +65,13 @@ class RjmcmcEngine final : public Engine {
   std::uint32_t rung_of(std::size_t place) const { return chain_of_[place] % settings_.temperatures; }
   /// Proposals by rung and kind. A proposal that does not exist or breaks a limit counts as rejected.
   const ProposalCount& count(std::uint32_t rung, ProposalKind kind) const {
-    return counts_[rung][static_cast<std::size_t>(kind)];
+    return counts_.proposals[rung][static_cast<std::size_t>(kind)];
   }
   /// Tries to swap rung and rung + 1.
-  const ProposalCount& swaps(std::uint32_t rung) const { return swaps_[rung]; }
+  const ProposalCount& swaps(std::uint32_t rung) const { return counts_.swaps[rung]; }
+
+  static constexpr std::uint64_t kGaugeSteps = 1000;
+  static constexpr std::size_t kGaugeRungs = 64;
 
  private:
   /// What a chain does in this step.
@@ -80,14 +95,16 @@ class RjmcmcEngine final : public Engine {
   void decide();
   void swap_rungs();
   void sort_states();
-
+  ProposalCount& count_of(std::size_t place) {
+    return counts_.proposals[rung_of(place)][static_cast<std::size_t>(tries_[place].kind)];
+  }
 
   SearchProblem problem_;
   RjmcmcSettings settings_;
   double beta_ = 1;  // of the coldest rung, before annealing
   std::uint64_t steps_ = 0, evaluations_ = 0, rejected_starts_ = 0;
-  std::vector<std::array<ProposalCount, kProposalKinds>> counts_;  // per rung
-  std::vector<ProposalCount> swaps_;                               // per rung but the last
+  RjmcmcCounts counts_;
+  RjmcmcCounts counts_then_, recent_;  // at the last multiple of kGaugeSteps; in the kGaugeSteps before it
   Individual best_;
   std::vector<Individual> states_;       // best first, equal ones by chain
   std::vector<std::uint32_t> chain_of_;  // of each state

@@ -225,6 +225,7 @@ void SmcEngine::end_sweep() {
     normalise(log_weights_, weights_);
     effective_ = effective_size(weights_);
   }
+  last_log_evidence_ = living_ > 0 ? log_evidence_ : kNothingToTell;
   const double next = std::ceil(particle_count_ * settings_.schedule);
   particle_count_ = static_cast<std::uint32_t>(
       std::min<double>(std::max(settings_.most_particles, settings_.particles), next));

@@ -18,6 +18,7 @@
 
 #include "search/best_first.h"
 #include "search/engine.h"
+#include "search/gauges.h"
 #include "search/smc_settings.h"
 
 namespace espalier {
@@ -53,6 +54,7 @@ class SmcEngine final : public Engine {
   /// Finished always: of unfinished particles, a closed copy is scored.
   const Individual& best() const override;
   std::vector<NamedCount> diagnostics() const override;
+  std::vector<NamedGauge> gauges() const override;
   void save(std::ostream& out) const override;
   void load(std::istream& in) override;
 
@@ -94,6 +96,7 @@ class SmcEngine final : public Engine {
   double log_evidence_ = 0;
   double log_mean_ = 0;           // product of the mean weights at the resamplings of this sweep
   double effective_ = 0;
+  double last_log_evidence_ = kNothingToTell;  // of the last sweep that ended; where none was left, nothing
   SmcCounts counts_;
   Individual best_;
 
