@@ -8,19 +8,11 @@
 #include "base/natural_exp.h"
 #include "base/natural_log.h"
 #include "derivation/nudge.h"
+#include "search/acceptance.h"
 #include "search/initial_population.h"
 #include "search/require.h"
-#include "search/temperature.h"
 
 namespace espalier {
-namespace {
-
-/// Chance that a proposal drawn from the prior is accepted.
-double acceptance(double beta, double score_before, double score_after) {
-  return std::min(1.0, natural_exp(beta * (score_after - score_before)));
-}
-
-}  // namespace
 
 RjmcmcEngine::RjmcmcEngine(const SearchProblem& problem, const RjmcmcSettings& settings)
     : problem_(problem),
@@ -29,7 +21,7 @@ RjmcmcEngine::RjmcmcEngine(const SearchProblem& problem, const RjmcmcSettings& s
       counts_then_(counts_),
       recent_(counts_) {
   CHECK(problem_.scorer != nullptr);
-  beta_ = inverse_temperature(settings_.temperature, problem_.scorer->optimum(), 1000);
+  beta_ = inverse_temperature(settings_.weight, settings_.temperature, problem_.scorer->optimum(), 1000);
 }
 
 const Individual& RjmcmcEngine::best() const {
@@ -74,6 +66,7 @@ void RjmcmcEngine::make_initial_states() {
   rejected_starts_ += made.rejected_starts;
   chain_of_.resize(states_.size());
   std::iota(chain_of_.begin(), chain_of_.end(), 0u);
+  for (const Individual& state : states_) value_of(state.score);  // refuses what has no ratio
 }
 
 ProposalKind RjmcmcEngine::draw_kind(RandomStream& random) const {
@@ -150,13 +143,10 @@ void RjmcmcEngine::score_made() {
 
 double RjmcmcEngine::log_acceptance(std::size_t place) const {
   const Try& one = tries_[place];
-  const double b = beta(rung_of(place)), before = states_[place].score;
-  const double plain = one.log_ratio + b * (one.score - before);
+  const double b = beta(rung_of(place)), before = value_of(states_[place].score), after = value_of(one.score);
+  const double plain = one.log_ratio + b * (after - before);
   if (one.kind != ProposalKind::delayed || one.score == kNotAcceptable) return plain;
-  // The way back would have been rejected first too: fresh draws are as likely from either side.
-  const double there = 1 - acceptance(b, before, one.rejected_score);
-  const double back = 1 - acceptance(b, one.score, one.rejected_score);
-  return plain + natural_log(back) - natural_log(there);
+  return plain + log_delayed_ratio(b, before, value_of(one.rejected_score), after);
 }
 
 /// Accepts or rejects what was scored; of the accepted, `made` is cleared.
@@ -183,7 +173,8 @@ void RjmcmcEngine::swap_rungs() {
     RandomStream random({problem_.seed, Purpose::swap, problem_.lane, chain, static_cast<std::uint32_t>(steps_)});
     std::size_t& cold = place_of[chain];
     std::size_t& hot = place_of[chain + 1];
-    const double log_ratio = (beta(rung) - beta(rung + 1)) * (states_[hot].score - states_[cold].score);
+    const double log_ratio = log_swap_ratio(beta(rung), beta(rung + 1), value_of(states_[cold].score),
+                                            value_of(states_[hot].score));
     ++counts_.swaps[rung].proposed;
     if (!(random.next_unit() < natural_exp(log_ratio))) continue;
     ++counts_.swaps[rung].accepted;

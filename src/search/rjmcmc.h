@@ -2,13 +2,13 @@
 // Reversible-jump Markov chain Monte Carlo over derivations (Talton et al. 2011; ShapeGenetics 2017, section 7). Every
 // step each chain makes one proposal (derivation/proposal.h) and accepts it with the probability that leaves
 //
-//     prior(derivation) * exp(beta * score), restricted to what is acceptable,
+//     prior(derivation) * exp(beta * score), restricted to what is acceptable (or prior * score^beta),
 //
 // as it is, where beta = 1 / temperature of its rung. Ladders of temperatures swap their states (parallel tempering):
 // the hot move freely, the cold hold on to what is good. Annealing cools all rungs by steps.
 //
 // Delayed rejection (Tierney and Mira 1999; Green and Mira 2001): when fresh draws of a gene are rejected, a nudge of
-// that gene is tried, accepted with the probability that keeps the same distribution.
+// that gene is tried, accepted with the probability that keeps the same distribution (search/acceptance.h).
 
 #include <array>
 #include <cstdint>
@@ -90,6 +90,7 @@ class RjmcmcEngine final : public Engine {
   void propose_delayed();
   void score_made();
   double log_acceptance(std::size_t place) const;
+  double value_of(double score) const { return log_weight(settings_.weight, score); }
   bool within_limits(const Derivation& derivation) const;
   ProposalKind draw_kind(RandomStream& random) const;
   void decide();

@@ -4,21 +4,17 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
 #include "base/check.h"
-#include "base/error.h"
 #include "base/natural_log.h"
 #include "derivation/strip.h"
 #include "search/initial_population.h"
 #include "search/require.h"
-#include "search/temperature.h"
 
 namespace espalier {
 SmcEngine::SmcEngine(const SearchProblem& problem, const SmcSettings& settings)
     : problem_(problem), settings_(validated(settings)) {
   CHECK(problem_.scorer != nullptr);
-  beta_ = inverse_temperature(settings_.temperature, problem_.scorer->optimum(), 100);
+  beta_ = inverse_temperature(settings_.weight, settings_.temperature, problem_.scorer->optimum(), 100);
   particle_count_ = settings_.particles;
 }
 
@@ -87,8 +83,8 @@ void SmcEngine::begin_sweep() {
     RandomStream random({problem_.seed, Purpose::initial, problem_.lane, static_cast<std::uint32_t>(i + 1),
                          static_cast<std::uint32_t>(steps_)});
     particles_[i].derivation = begin_particle(i, random);
-    // As if it had scored 0 before: its first weight is exp(beta * score), or the score itself.
-    particles_[i].score = settings_.weight == ParticleWeight::ratio ? 1 : 0;
+    // As if it had weighed 1 before: its first weight is that of its score.
+    particles_[i].score = settings_.weight == ScoreWeight::ratio ? 1 : 0;
     admit(i);
   }
 }
@@ -147,11 +143,7 @@ void SmcEngine::bury(std::size_t particle) {
 }
 
 double SmcEngine::increment(double before, double after) const {
-  if (settings_.weight == ParticleWeight::exponential) return beta_ * (after - before);
-  if (!(after > 0)) {
-    throw Error(fmt::format("weight \"ratio\" needs scores above 0, got {} (use \"exponential\")", after));
-  }
-  return natural_log(after) - natural_log(before);
+  return beta_ * (log_weight(settings_.weight, after) - log_weight(settings_.weight, before));
 }
 
 void SmcEngine::score_grown() {

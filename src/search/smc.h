@@ -4,7 +4,7 @@
 // the order of the text (SMC) or at random open slots (SOSMC), scores it, and multiplies its weight by what its score
 // rose. Particles are resampled where few carry most of the weight. When all are finished, they follow
 //
-//     prior(derivation) * exp(score / temperature), restricted to what is acceptable,
+//     prior(derivation) * exp(score / temperature), restricted to what is acceptable (or * score^(1 / temperature)),
 //
 // weighted, and the product of mean weights is an unbiased estimate of its integral (unless `most_steps` cut some short).
 // Then another sweep begins.
