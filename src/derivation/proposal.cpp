@@ -133,6 +133,16 @@ void reuse_draws(const GeneratorGraph& graph, const Derivation& before, const Ge
   }
 }
 
+/// Chooses where the proposal is made; its gene is located in work.path. Nothing where there is no such place.
+std::optional<Place> choose_place(const GeneratorGraph& graph, const Derivation& derivation, const Locks& locks,
+                                  Kind kind, PlaceChoice choice, Workspace& work, RandomStream& random) {
+  find_places(graph, derivation, locks, kind, work, work.before);
+  if (work.before.empty()) return std::nullopt;
+  const Place place = work.before.choose(choice, random);
+  locate(graph, derivation, place.gene, work.path);
+  return place;
+}
+
 /// Draws the subtree that stands in a slot of `edge` from the prior, to work.fresh. The ledger must not count the old.
 bool draw_subtree(const GeneratorGraph& graph, EdgeId edge, const DepthCounts& above, std::uint32_t most_genes,
                   Workspace& work, RandomStream& random) {
@@ -172,44 +182,40 @@ std::optional<double> propose_draws(const GeneratorGraph& graph, Derivation& der
 std::optional<double> propose_jump(const GeneratorGraph& graph, Derivation& derivation, const Locks& locks,
                                    PlaceChoice choice, std::uint32_t most_genes, RandomStream& random) {
   Workspace& work = workspace();
-  find_places(graph, derivation, locks, Kind::jump, work, work.before);
-  if (work.before.empty()) return std::nullopt;
-  const Place place = work.before.choose(choice, random);
-  locate(graph, derivation, place.gene, work.path);
+  const std::optional<Place> place = choose_place(graph, derivation, locks, Kind::jump, choice, work, random);
+  if (!place) return std::nullopt;
   const SubtreeSlice old = subtree_at(graph, derivation, work.path.gene);
   const std::size_t rest = derivation.size() - old.genes;
   if (rest >= most_genes) return std::nullopt;
   work.ledger.reset(graph, derivation);
   work.ledger.remove(graph, derivation, old);
-  const EdgeId edge = derivation.genes[place.gene].edge;
+  const EdgeId edge = derivation.genes[place->gene].edge;
   if (!draw_subtree(graph, edge, work.path.above.counts(), static_cast<std::uint32_t>(most_genes - rest), work,
                     random)) {
     return std::nullopt;
   }
   reuse_draws(graph, derivation, work.path.gene, work.fresh, work);
   splice_in_place(derivation, old, work.fresh, whole(work.fresh), work.path.steps);
-  return ratio(graph, derivation, locks, Kind::jump, choice, place, work);
+  return ratio(graph, derivation, locks, Kind::jump, choice, *place, work);
 }
 
 std::optional<double> propose_slot(const GeneratorGraph& graph, Derivation& derivation, const Locks& locks,
                                    PlaceChoice choice, std::uint32_t most_genes, RandomStream& random) {
   Workspace& work = workspace();
-  find_places(graph, derivation, locks, Kind::slot, work, work.before);
-  if (work.before.empty()) return std::nullopt;
-  const Place place = work.before.choose(choice, random);
-  locate(graph, derivation, place.gene, work.path);
+  const std::optional<Place> place = choose_place(graph, derivation, locks, Kind::slot, choice, work, random);
+  if (!place) return std::nullopt;
   const GenePosition parent = work.path.gene;
-  const Rule& rule = rule_of(graph, derivation.genes[place.gene]);
-  const EdgeId edge = rule.slots[variant_of(graph, derivation.genes[place.gene]).slots[place.slot]].edge;
-  SlotState& state = derivation.slots[parent.slot + place.slot];
-  const GenePosition child = child_in_slot(graph, derivation, parent, place.slot);
+  const Rule& rule = rule_of(graph, derivation.genes[place->gene]);
+  const EdgeId edge = rule.slots[variant_of(graph, derivation.genes[place->gene]).slots[place->slot]].edge;
+  SlotState& state = derivation.slots[parent.slot + place->slot];
+  const GenePosition child = child_in_slot(graph, derivation, parent, place->slot);
   const SubtreeSlice old =
       state == SlotState::filled ? subtree_at(graph, derivation, child) : SubtreeSlice{child, 0, 0, 0};
   const std::size_t rest = derivation.size() - old.genes;
   const bool fill = graph.edges[edge].required ||
                     random.chance(fill_probability(graph.edges[edge], work.path.above.counts()));
   work.fresh.genes.clear(), work.fresh.slots.clear(), work.fresh.draws.clear();
-  work.path.steps.push_back({parent, place.slot});
+  work.path.steps.push_back({parent, place->slot});
   if (fill) {
     work.ledger.reset(graph, derivation);
     if (old.genes > 0) work.ledger.remove(graph, derivation, old);
@@ -220,7 +226,7 @@ std::optional<double> propose_slot(const GeneratorGraph& graph, Derivation& deri
   }
   state = fill ? SlotState::filled : SlotState::empty;
   splice_in_place(derivation, old, work.fresh, fill ? whole(work.fresh) : SubtreeSlice{}, work.path.steps);
-  return ratio(graph, derivation, locks, Kind::slot, choice, place, work);
+  return ratio(graph, derivation, locks, Kind::slot, choice, *place, work);
 }
 
 }  // namespace espalier

@@ -12,8 +12,7 @@ constexpr Choice<Resampling> kResamplings[] = {{"systematic", Resampling::system
                                                {"stratified", Resampling::stratified},
                                                {"multinomial", Resampling::multinomial},
                                                {"residual", Resampling::residual}};
-constexpr Choice<ParticleWeight> kWeights[] = {{"exponential", ParticleWeight::exponential},
-                                               {"ratio", ParticleWeight::ratio}};
+constexpr Choice<ScoreWeight> kWeights[] = {{"exponential", ScoreWeight::exponential}, {"ratio", ScoreWeight::ratio}};
 constexpr Choice<PlaceChoice> kPlaceChoices[] = {{"uniform", PlaceChoice::uniform}, {"level", PlaceChoice::by_level}};
 
 std::string temperature_line(const std::optional<double>& temperature) {
@@ -38,6 +37,7 @@ void read_rjmcmc(TomlSection& s, RjmcmcSettings& settings) {
   take(settings.chains, s.whole("chains", 1, 100'000));
   take(settings.temperatures, s.whole("temperatures", 1, 100'000));
   take(settings.heat, s.number("heat", 1, 1e6));
+  take(settings.weight, s.choice("weight", kWeights));
   take(settings.temperature, s.number("temperature", 1e-12, 1e12));
   take(settings.anneal, s.number("anneal", 1, 100));
   take(settings.anneal_every, s.whole("anneal_every", 1, 1'000'000'000));
@@ -69,7 +69,8 @@ std::string to_toml(const SmcSettings& s) {
 }
 
 std::string to_toml(const RjmcmcSettings& s) {
-  return fmt::format("chains = {}\ntemperatures = {}\nheat = {}\n", s.chains, s.temperatures, format_toml(s.heat)) +
+  return fmt::format("chains = {}\ntemperatures = {}\nheat = {}\nweight = \"{}\"\n", s.chains, s.temperatures,
+                     format_toml(s.heat), word_for(kWeights, s.weight)) +
          temperature_line(s.temperature) +
          fmt::format("anneal = {}\nanneal_every = {}\nanneal_most = {}\ndraws = {}\nnudges = {}\nslots = {}\n"
                      "jumps = {}\nchoice = \"{}\"\ndelayed = {}\nswap_every = {}\n",

@@ -41,7 +41,8 @@ struct NamedCount {
   bool operator==(const NamedCount&) const = default;
 };
 
-/// One of an engine's figures of the moment: a rate, a share, an effective number. Not a number: nothing to tell yet.
+/// One of an engine's figures of the moment: a rate, a share, an effective number. Finite, or not a number where there
+/// is nothing to tell yet.
 struct NamedGauge {
   std::string name;
   double value = 0;
@@ -63,8 +64,9 @@ class Engine {
   virtual const Individual& best() const = 0;
   /// What happened inside, by name, in a fixed order.
   virtual std::vector<NamedCount> diagnostics() const = 0;
-  /// How well it goes, by name, in a fixed order: equal states give equal gauges, a loaded state too.
-  virtual std::vector<NamedGauge> gauges() const { return {}; }
+  /// How well it goes. Names and their order are the same over the life of an engine; equal states give equal values, a
+  /// loaded state too.
+  virtual std::vector<NamedGauge> gauges() const = 0;
 
   /// Writes the whole state: an engine of the same problem and settings that loads it goes on as if never stopped.
   virtual void save(std::ostream& out) const = 0;

@@ -1,13 +1,13 @@
 #include "search/ga.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/check.h"
+#include "search/gauges.h"
 #include "search/require.h"
 
 namespace espalier {
+
 GaEngine::GaEngine(const SearchProblem& problem, const GaSettings& settings)
     : problem_(problem),
       settings_(validated(settings)),
@@ -31,6 +31,8 @@ void GaEngine::step() {
     newcomers_.resize(settings_.population);
     scored_.assign(settings_.population, 0);
     parents_.assign(settings_.population, Child::kNone);
+    kinds_.resize(settings_.population);
+    gains_.begin_generation();
     make_next_generation();
     score_newcomers();
     while (!rejected_.empty()) {
@@ -59,6 +61,7 @@ void GaEngine::score_newcomers() {
   problem_.scorer->score(batch_, scores_);
   for (std::size_t i = 0; i < batch_.size(); ++i) {
     const std::size_t place = batch_places_[i];
+    tally(place, scores_[i]);
     if (scores_[i] == kNotAcceptable) {
       rejected_.push_back(place);
       continue;
@@ -70,15 +73,25 @@ void GaEngine::score_newcomers() {
   evaluations_ += batch_.size();
 }
 
+/// Of a child that was made, not of a copy.
+void GaEngine::tally(std::size_t place, double score) {
+  gains_.add(kinds_[place], score > population_[parents_[place]].score);
+}
+
+std::vector<NamedGauge> GaEngine::gauges() const {
+  std::vector<NamedGauge> all = {{"distinct", share_distinct(population_)},
+                                 {"mean genes", mean_genes(population_)},
+                                 {"score deviation", score_deviation(population_)}};
+  for (std::size_t k = 0; k < kVariationKinds; ++k) {
+    const auto kind = static_cast<VariationKind>(k);
+    all.push_back({std::string("better by ") + kVariationNames[k], share_of(gains_.better(kind), gains_.made(kind))});
+  }
+  return all;
+}
+
 void GaEngine::sort_newcomers() {
-  order_.resize(newcomers_.size());
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) {
-    return newcomers_[a].score != newcomers_[b].score ? newcomers_[a].score > newcomers_[b].score : a < b;
-  });
-  // The old population is spent: its places take the sorted newcomers, and give their storage in return.
-  population_.resize(newcomers_.size());
-  for (std::size_t rank = 0; rank < order_.size(); ++rank) std::swap(population_[rank], newcomers_[order_[rank]]);
+  best_first_.sort(newcomers_);
+  population_.swap(newcomers_);  // the old population is spent, and gives its storage
 }
 
 }  // namespace espalier

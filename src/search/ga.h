@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "derivation/join.h"
+#include "search/best_first.h"
 #include "search/engine.h"
+#include "search/ga_gains.h"
 #include "search/ga_settings.h"
 #include "search/ga_variation.h"
 #include "search/initial_population.h"
@@ -37,6 +39,7 @@ class GaEngine final : public Engine {
   std::span<const Individual> population() const override { return population_; }
   const Individual& best() const override;
   std::vector<NamedCount> diagnostics() const override { return named(counts_); }
+  std::vector<NamedGauge> gauges() const override;
 
   void save(std::ostream& out) const override;
   void load(std::istream& in) override;
@@ -57,6 +60,7 @@ class GaEngine final : public Engine {
   void redraw_children();
   void breed(Brood& brood, std::span<const std::size_t> places);
   void admit(Child& child, std::size_t place);
+  void tally(std::size_t place, double score);
   void remember_population();
   bool find_known(Individual& individual) const;
   void score_newcomers();
@@ -72,6 +76,7 @@ class GaEngine final : public Engine {
   std::uint64_t steps_ = 0;
   std::uint64_t evaluations_ = 0;
   GaCounts counts_;
+  GaGains gains_;
   std::uint32_t epoch_ = 0;     // populations begun so far, less one
   std::uint64_t stalled_ = 0;   // generations since the best of this population last rose
   std::vector<Individual> champions_;  // the best of the populations since the last reunion
@@ -82,6 +87,7 @@ class GaEngine final : public Engine {
   std::vector<Individual> newcomers_;   // the generation being made, in order of birth
   std::vector<char> scored_;            // per newcomer
   std::vector<std::uint32_t> parents_;  // per newcomer: the place of its parent in population_, or Child::kNone
+  std::vector<VariationKind> kinds_;    // per newcomer that has a parent
   std::vector<std::size_t> gainers_;    // join only: places of newcomers that are better than their parents
   std::vector<Change> changes_;         // join only: of one parent's children, pairwise apart
   std::vector<std::size_t> rejected_;   // places of newcomers that were just found not acceptable, ascending
@@ -90,7 +96,7 @@ class GaEngine final : public Engine {
   std::vector<double> scores_;
   std::vector<const Derivation*> batch_;
   std::vector<std::size_t> batch_places_;
-  std::vector<std::size_t> order_;
+  BestFirst best_first_;
   struct Known {
     std::uint64_t hash;
     std::size_t index;

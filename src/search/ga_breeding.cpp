@@ -83,6 +83,8 @@ void GaEngine::admit(Child& child, std::size_t place) {
   counts_.reused_scores += known;
   scored_[place] = known;
   parents_[place] = child.parent;
+  kinds_[place] = child.kind;
+  if (known && !child.scored) tally(place, child.individual.score);
   std::swap(newcomers_[place], child.individual);
 }
 

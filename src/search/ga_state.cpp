@@ -12,7 +12,7 @@ namespace espalier {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x0a41'4750'5345ull;  // the bytes "ESPGA\n"
-constexpr std::uint64_t kStateVersion = 5;
+constexpr std::uint64_t kStateVersion = 6;
 
 }  // namespace
 
@@ -23,6 +23,7 @@ void GaEngine::save(std::ostream& out) const {
   writer.u64(evaluations_);
   const std::vector<NamedCount> counts = named(counts_);
   for (const NamedCount& count : counts) writer.u64(count.value);
+  gains_.save(writer);
   writer.u64(epoch_);
   writer.u64(stalled_);
   writer.u64(champions_.size());
@@ -38,6 +39,7 @@ void GaEngine::load(std::istream& in) {
   const std::uint64_t steps = reader.u64(), evaluations = reader.u64();
   std::vector<std::uint64_t> counts(named(counts_).size());
   for (std::uint64_t& count : counts) count = reader.u64();
+  GaGains gains = GaGains::load(reader);
   const std::uint64_t epoch = reader.u64(), stalled = reader.u64(), champion_count = reader.u64();
   if (champion_count > kReunion) {
     throw Error(fmt::format("saved state: champions must be at most {}, got {}", kReunion, champion_count));
@@ -59,6 +61,7 @@ void GaEngine::load(std::istream& in) {
   champions_ = std::move(champions);
   evaluations_ = evaluations;
   counts_ = counts_from(counts);
+  gains_ = std::move(gains);
   best_ = std::move(best);
   population_ = std::move(population);
 }

@@ -7,6 +7,9 @@
 namespace espalier {
 namespace {
 
+using Kind = VariationKind;
+constexpr Kind kMutations[] = {Kind::grow, Kind::cut, Kind::alter, Kind::nudge};
+
 struct Entry {
   const char* name;
   std::uint64_t GaCounts::*member;
@@ -69,16 +72,19 @@ void GaVariation::vary(const Individual& parent1, const Individual& parent2, Ran
   child1.individual.score = parent1.score;
   child2.individual.score = parent2.score;
   child1.scored = child2.scored = !result.crossed;
+  child1.kind = child2.kind = Kind::crossover;
 }
 
 void GaVariation::mutate(const Individual& parent, RandomStream& random, Child& child, GaCounts& counts) const {
   child.individual = parent;
   child.scored = false;
   const Kind drawn = draw_kind(random);
+  child.kind = drawn;
   if (apply(drawn, child.individual.derivation, random, counts)) return;
-  for (const Kind other : {Kind::grow, Kind::cut, Kind::alter, Kind::nudge}) {
+  for (const Kind other : kMutations) {
     if (other == drawn || !(share(other) > 0)) continue;
     if (!apply(other, child.individual.derivation, random, counts)) continue;
+    child.kind = other;
     ++counts.mutation_fallbacks;
     return;
   }
@@ -86,10 +92,10 @@ void GaVariation::mutate(const Individual& parent, RandomStream& random, Child& 
   child.scored = true;
 }
 
-GaVariation::Kind GaVariation::draw_kind(RandomStream& random) const {
+VariationKind GaVariation::draw_kind(RandomStream& random) const {
   double ball = random.next_unit() * (settings_.grow + settings_.cut + settings_.alter + settings_.nudge);
   Kind last = Kind::grow;
-  for (const Kind kind : {Kind::grow, Kind::cut, Kind::alter, Kind::nudge}) {
+  for (const Kind kind : kMutations) {
     if (!(share(kind) > 0)) continue;
     if (ball < share(kind)) return kind;
     ball -= share(kind);
@@ -104,6 +110,7 @@ double GaVariation::share(Kind kind) const {
     case Kind::cut: return settings_.cut;
     case Kind::alter: return settings_.alter;
     case Kind::nudge: return settings_.nudge;
+    case Kind::crossover: break;
   }
   CHECK(false);
 }
@@ -118,6 +125,7 @@ bool GaVariation::apply(Kind kind, Derivation& derivation, RandomStream& random,
     case Kind::cut: return tallied(cut(graph_, derivation, locks_, random), counts.cut);
     case Kind::alter: return tallied(alter(graph_, derivation, locks_, random), counts.altered);
     case Kind::nudge: return tallied(nudge(graph_, derivation, locks_, random), counts.nudged);
+    case Kind::crossover: break;
   }
   CHECK(false);
 }

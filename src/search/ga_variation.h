@@ -8,6 +8,7 @@
 #include "derivation/locks.h"
 #include "search/engine.h"
 #include "search/ga_settings.h"
+#include "search/variation_kind.h"
 
 namespace espalier {
 
@@ -46,6 +47,7 @@ struct Child {
   Individual individual;
   bool scored = false;
   std::uint32_t parent = kNone;  // its place in the population, of the parent that it was changed from
+  VariationKind kind = VariationKind::crossover;  // how it was changed
 };
 
 class GaVariation {
@@ -59,12 +61,10 @@ class GaVariation {
             GaCounts& counts) const;
 
  private:
-  enum class Kind : std::uint8_t { grow, cut, alter, nudge };
-
   void mutate(const Individual& parent, RandomStream& random, Child& child, GaCounts& counts) const;
-  Kind draw_kind(RandomStream& random) const;
-  double share(Kind kind) const;
-  bool apply(Kind kind, Derivation& derivation, RandomStream& random, GaCounts& counts) const;
+  VariationKind draw_kind(RandomStream& random) const;
+  double share(VariationKind kind) const;
+  bool apply(VariationKind kind, Derivation& derivation, RandomStream& random, GaCounts& counts) const;
 
   const GeneratorGraph& graph_;
   const Locks& locks_;

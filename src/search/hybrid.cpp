@@ -13,6 +13,7 @@
 #include "derivation/sample.h"
 #include "search/engine_state.h"
 #include "search/ga.h"
+#include "search/gauges.h"
 #include "search/require.h"
 #include "search/rjmcmc.h"
 #include "search/smc.h"
@@ -21,15 +22,8 @@ namespace espalier {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x0a59'4850'5345ull;  // the bytes "ESPHY\n"
-constexpr std::uint64_t kStateVersion = 1;
+constexpr std::uint64_t kStateVersion = 2;
 constexpr const char* kStages[] = {"sosmc", "ga", "rjmcmc"};
-
-std::uint64_t count_of(const Engine& engine, std::string_view name) {
-  for (const NamedCount& count : engine.diagnostics()) {
-    if (count.name == name) return count.value;
-  }
-  return 0;
-}
 
 }  // namespace
 
@@ -50,7 +44,12 @@ HybridEngine::HybridEngine(const SearchProblem& problem, const HybridSettings& s
     : problem_(problem), settings_(validated(settings)), founders_(problem.founders) {
   CHECK(problem_.scorer != nullptr);
   CHECK(problem_.lane < (1u << 24) / 3);
-  for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] = make_engine(static_cast<Stage>(i), {})->diagnostics();
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    const std::unique_ptr<Engine> engine = make_engine(static_cast<Stage>(i), {});
+    counts_[i] = engine->diagnostics();
+    silent_[i] = engine->gauges();
+    for (NamedGauge& gauge : silent_[i]) gauge.value = kNothingToTell;
+  }
   engine_ = make_engine(stage_, founders_);
 }
 
@@ -89,7 +88,8 @@ void HybridEngine::step() {
 
 bool HybridEngine::is_over() const {
   if (stage_ == Stage::start) {
-    return count_of(*engine_, "sweeps") >= settings_.sweeps || engine_->evaluations() >= settings_.start_evaluations;
+    const auto& start = static_cast<const SmcEngine&>(*engine_);
+    return start.sweeps() >= settings_.sweeps || start.evaluations() >= settings_.start_evaluations;
   }
   return stage_ == Stage::middle && evaluations() - risen_at_ >= settings_.patience;
 }
@@ -147,6 +147,17 @@ std::vector<NamedCount> HybridEngine::diagnostics() const {
     const bool running = i == static_cast<std::size_t>(stage_);
     for (const NamedCount& count : running ? engine_->diagnostics() : counts_[i]) {
       all.push_back({fmt::format("{}: {}", kStages[i], count.name), count.value});
+    }
+  }
+  return all;
+}
+
+std::vector<NamedGauge> HybridEngine::gauges() const {
+  std::vector<NamedGauge> all = {{"stage", static_cast<double>(stage_)}};
+  for (std::size_t i = 0; i < silent_.size(); ++i) {
+    const bool running = i == static_cast<std::size_t>(stage_);
+    for (const NamedGauge& gauge : running ? engine_->gauges() : silent_[i]) {
+      all.push_back({fmt::format("{}: {}", kStages[i], gauge.name), gauge.value});
     }
   }
   return all;

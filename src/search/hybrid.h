@@ -29,6 +29,8 @@ class HybridEngine final : public Engine {
   const Individual& best() const override;
   /// Of all three, each name with its engine's before it.
   std::vector<NamedCount> diagnostics() const override;
+  /// `stage`, and those of all three, each with its engine's name before it: nothing to tell of those that do not run.
+  std::vector<NamedGauge> gauges() const override;
   void save(std::ostream& out) const override;
   void load(std::istream& in) override;
 
@@ -53,6 +55,7 @@ class HybridEngine final : public Engine {
   double risen_to_ = 0;                     // the best when it last rose
   std::uint64_t risen_at_ = 0;              // evaluations then
   std::array<std::vector<NamedCount>, 3> counts_;  // of engines that are done; of others zeros
+  std::array<std::vector<NamedGauge>, 3> silent_;  // the gauges of engines that do not run
   Individual best_;
 };
 

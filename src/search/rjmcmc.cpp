@@ -8,26 +8,20 @@
 #include "base/natural_exp.h"
 #include "base/natural_log.h"
 #include "derivation/nudge.h"
+#include "search/acceptance.h"
 #include "search/initial_population.h"
 #include "search/require.h"
-#include "search/temperature.h"
 
 namespace espalier {
-namespace {
-
-/// Chance that a proposal drawn from the prior is accepted.
-double acceptance(double beta, double score_before, double score_after) {
-  return std::min(1.0, natural_exp(beta * (score_after - score_before)));
-}
-
-}  // namespace
 
 RjmcmcEngine::RjmcmcEngine(const SearchProblem& problem, const RjmcmcSettings& settings)
-    : problem_(problem), settings_(validated(settings)) {
+    : problem_(problem),
+      settings_(validated(settings)),
+      counts_(settings_.temperatures),
+      counts_then_(counts_),
+      recent_(counts_) {
   CHECK(problem_.scorer != nullptr);
-  beta_ = inverse_temperature(settings_.temperature, problem_.scorer->optimum(), 1000);
-  counts_.resize(settings_.temperatures);
-  swaps_.resize(settings_.temperatures - 1);
+  beta_ = inverse_temperature(settings_.weight, settings_.temperature, problem_.scorer->optimum(), 1000);
 }
 
 const Individual& RjmcmcEngine::best() const {
@@ -58,7 +52,9 @@ void RjmcmcEngine::step() {
   }
   sort_states();
   if (steps_ == 0 || states_.front().score > best_.score) best_ = states_.front();
-  ++steps_;
+  if (++steps_ % kGaugeSteps != 0) return;
+  recent_ = difference(counts_, counts_then_);
+  counts_then_ = counts_;
 }
 
 void RjmcmcEngine::make_initial_states() {
@@ -70,6 +66,7 @@ void RjmcmcEngine::make_initial_states() {
   rejected_starts_ += made.rejected_starts;
   chain_of_.resize(states_.size());
   std::iota(chain_of_.begin(), chain_of_.end(), 0u);
+  for (const Individual& state : states_) value_of(state.score);  // refuses what has no ratio
 }
 
 ProposalKind RjmcmcEngine::draw_kind(RandomStream& random) const {
@@ -109,7 +106,7 @@ void RjmcmcEngine::propose() {
     }
     one.made = ratio && within_limits(next);
     one.log_ratio = ratio.value_or(0);
-    ++counts_[rung_of(i)][static_cast<std::size_t>(one.kind)].proposed;
+    ++count_of(i).proposed;
   }
 }
 
@@ -123,7 +120,7 @@ void RjmcmcEngine::propose_delayed() {
     one.rejected_score = one.score;
     proposals_[i] = states_[i].derivation;
     nudge_gene(*problem_.graph, proposals_[i], one.gene, one.random);
-    ++counts_[rung_of(i)][static_cast<std::size_t>(one.kind)].proposed;
+    ++count_of(i).proposed;
   }
 }
 
@@ -146,13 +143,10 @@ void RjmcmcEngine::score_made() {
 
 double RjmcmcEngine::log_acceptance(std::size_t place) const {
   const Try& one = tries_[place];
-  const double b = beta(rung_of(place)), before = states_[place].score;
-  const double plain = one.log_ratio + b * (one.score - before);
+  const double b = beta(rung_of(place)), before = value_of(states_[place].score), after = value_of(one.score);
+  const double plain = one.log_ratio + b * (after - before);
   if (one.kind != ProposalKind::delayed || one.score == kNotAcceptable) return plain;
-  // The way back would have been rejected first too: fresh draws are as likely from either side.
-  const double there = 1 - acceptance(b, before, one.rejected_score);
-  const double back = 1 - acceptance(b, one.score, one.rejected_score);
-  return plain + natural_log(back) - natural_log(there);
+  return plain + log_delayed_ratio(b, before, value_of(one.rejected_score), after);
 }
 
 /// Accepts or rejects what was scored; of the accepted, `made` is cleared.
@@ -163,7 +157,7 @@ void RjmcmcEngine::decide() {
     if (!(u < natural_exp(log_acceptance(i)))) continue;
     std::swap(states_[i].derivation, proposals_[i]);
     states_[i].score = one.score;
-    ++counts_[rung_of(i)][static_cast<std::size_t>(one.kind)].accepted;
+    ++count_of(i).accepted;
     one.made = false;
   }
 }
@@ -179,30 +173,19 @@ void RjmcmcEngine::swap_rungs() {
     RandomStream random({problem_.seed, Purpose::swap, problem_.lane, chain, static_cast<std::uint32_t>(steps_)});
     std::size_t& cold = place_of[chain];
     std::size_t& hot = place_of[chain + 1];
-    const double log_ratio = (beta(rung) - beta(rung + 1)) * (states_[hot].score - states_[cold].score);
-    ++swaps_[rung].proposed;
+    const double log_ratio = log_swap_ratio(beta(rung), beta(rung + 1), value_of(states_[cold].score),
+                                            value_of(states_[hot].score));
+    ++counts_.swaps[rung].proposed;
     if (!(random.next_unit() < natural_exp(log_ratio))) continue;
-    ++swaps_[rung].accepted;
+    ++counts_.swaps[rung].accepted;
     std::swap(chain_of_[cold], chain_of_[hot]);
     std::swap(cold, hot);
   }
 }
 
 void RjmcmcEngine::sort_states() {
-  const auto before = [this](std::size_t a, std::size_t b) {
-    return states_[a].score != states_[b].score ? states_[a].score > states_[b].score : chain_of_[a] < chain_of_[b];
-  };
-  order_.resize(states_.size());
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::sort(order_.begin(), order_.end(), before);
-  state_scratch_.resize(states_.size());
-  chain_scratch_.resize(states_.size());
-  for (std::size_t rank = 0; rank < order_.size(); ++rank) {
-    std::swap(state_scratch_[rank], states_[order_[rank]]);
-    chain_scratch_[rank] = chain_of_[order_[rank]];
-  }
-  states_.swap(state_scratch_);
-  chain_of_.swap(chain_scratch_);
+  best_first_.sort(states_, [this](std::size_t place) { return chain_of_[place]; });
+  best_first_.follow(chain_of_, chain_scratch_);
 }
 
 }  // namespace espalier

@@ -23,10 +23,10 @@ void validate(const RjmcmcSettings& s) {
 
 std::string to_text(const RjmcmcSettings& s) {
   return fmt::format("chains {} temperatures {} heat {} temperature {} anneal {} every {} most {} shares {} {} {} {} "
-                     "choice {} delayed {} swap {} length {}..{} genes {}..{}",
+                     "choice {} delayed {} swap {} weight {} length {}..{} genes {}..{}",
                      s.chains, s.temperatures, s.heat, s.temperature.value_or(0), s.anneal, s.anneal_every,
                      s.anneal_most, s.draws, s.nudges, s.slots, s.jumps, static_cast<int>(s.choice), s.delayed,
-                     s.swap_every, s.initial_length_min, s.initial_length_max, s.genes.min, s.genes.max);
+                     s.swap_every, static_cast<int>(s.weight), s.initial_length_min, s.initial_length_max, s.genes.min, s.genes.max);
 }
 
 }  // namespace espalier

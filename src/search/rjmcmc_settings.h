@@ -8,6 +8,7 @@
 
 #include "derivation/proposal.h"
 #include "search/gene_limits.h"
+#include "search/score_weight.h"
 
 namespace espalier {
 
@@ -17,7 +18,9 @@ struct RjmcmcSettings {
   /// Hottest over coldest temperature: 12.91 lets through in the coldest 1 % of what passes in the hottest with 70 %
   /// (ln 0.01 / ln 0.7; Talton et al. 2011, section 5.2). 1..1e6.
   double heat = 12.91;
-  std::optional<double> temperature;  // of the coldest chain, > 0; none: a thousandth of the optimum, or 1
+  ScoreWeight weight = ScoreWeight::exponential;
+  /// Of the coldest chain, > 0; none: a thousandth of the optimum, or 1 where that is not above 0; 1 with ratios.
+  std::optional<double> temperature;
   double anneal = 1;                  // beta grows by this factor every `anneal_every` steps, 1..100
   std::uint32_t anneal_every = 1000;  // 1..1e9
   double anneal_most = 100;           // beta grows so many times at most, 1..1e12

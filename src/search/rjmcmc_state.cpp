@@ -1,5 +1,4 @@
 // Saving and loading of reversible-jump Markov chain Monte Carlo.
-#include <algorithm>
 #include <istream>
 #include <ostream>
 
@@ -13,8 +12,7 @@ namespace espalier {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x0a4a'5250'5345ull;  // the bytes "ESPRJ\n"
-constexpr std::uint64_t kStateVersion = 1;
-constexpr const char* kKinds[kProposalKinds] = {"draws", "nudges", "slots", "jumps", "delayed nudges"};
+constexpr std::uint64_t kStateVersion = 2;
 
 void write(StateWriter& writer, const ProposalCount& count) {
   writer.u64(count.proposed);
@@ -26,29 +24,23 @@ ProposalCount read(StateReader& reader) {
   return {proposed, reader.u64_at_most(proposed, "accepted proposals")};
 }
 
-}  // namespace
-
-std::vector<NamedCount> RjmcmcEngine::diagnostics() const {
-  std::vector<NamedCount> all;
-  const auto add = [&](const std::string& name, const ProposalCount& count) {
-    all.push_back({name, count.proposed});
-    all.push_back({name + " accepted", count.accepted});
-  };
-  for (std::size_t kind = 0; kind < kProposalKinds; ++kind) {
-    ProposalCount sum;
-    for (const auto& of_rung : counts_) sum.proposed += of_rung[kind].proposed, sum.accepted += of_rung[kind].accepted;
-    add(kKinds[kind], sum);
+void write(StateWriter& writer, const RjmcmcCounts& counts) {
+  for (const auto& of_rung : counts.proposals) {
+    for (const ProposalCount& count : of_rung) write(writer, count);
   }
-  for (std::size_t rung = 0; rung < counts_.size(); ++rung) {
-    ProposalCount sum;
-    for (const ProposalCount& one : counts_[rung]) sum.proposed += one.proposed, sum.accepted += one.accepted;
-    add(fmt::format("rung {}", rung), sum);
-  }
-  for (std::size_t rung = 0; rung < swaps_.size(); ++rung)
-    add(fmt::format("swaps {}-{}", rung, rung + 1), swaps_[rung]);
-  all.push_back({"rejected starts", rejected_starts_});
-  return all;
+  for (const ProposalCount& count : counts.swaps) write(writer, count);
 }
+
+RjmcmcCounts read(StateReader& reader, std::size_t rungs) {
+  RjmcmcCounts counts(rungs);
+  for (auto& of_rung : counts.proposals) {
+    for (ProposalCount& count : of_rung) count = read(reader);
+  }
+  for (ProposalCount& count : counts.swaps) count = read(reader);
+  return counts;
+}
+
+}  // namespace
 
 void RjmcmcEngine::save(std::ostream& out) const {
   StateWriter writer(out);
@@ -56,10 +48,7 @@ void RjmcmcEngine::save(std::ostream& out) const {
   writer.u64(steps_);
   writer.u64(evaluations_);
   writer.u64(rejected_starts_);
-  for (const auto& of_rung : counts_) {
-    for (const ProposalCount& count : of_rung) write(writer, count);
-  }
-  for (const ProposalCount& count : swaps_) write(writer, count);
+  for (const RjmcmcCounts* counts : {&counts_, &counts_then_, &recent_}) write(writer, *counts);
   if (steps_ == 0) return;
   write_individual(writer, best_);
   for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -72,12 +61,8 @@ void RjmcmcEngine::load(std::istream& in) {
   StateReader reader(in);
   read_head(reader, kMagic, kStateVersion, fingerprint("rjmcmc", problem_, to_text(settings_)));
   const std::uint64_t steps = reader.u64(), evaluations = reader.u64(), rejected_starts = reader.u64();
-  auto counts = counts_;
-  auto swaps = swaps_;
-  for (auto& of_rung : counts) {
-    for (ProposalCount& count : of_rung) count = read(reader);
-  }
-  for (ProposalCount& count : swaps) count = read(reader);
+  std::array<RjmcmcCounts, 3> counts;
+  for (RjmcmcCounts& one : counts) one = read(reader, settings_.temperatures);
   Individual best;
   std::vector<Individual> states;
   std::vector<std::uint32_t> chain_of;
@@ -93,8 +78,7 @@ void RjmcmcEngine::load(std::istream& in) {
   }
 
   steps_ = steps, evaluations_ = evaluations, rejected_starts_ = rejected_starts;
-  counts_ = std::move(counts);
-  swaps_ = std::move(swaps);
+  counts_ = std::move(counts[0]), counts_then_ = std::move(counts[1]), recent_ = std::move(counts[2]);
   best_ = std::move(best);
   states_ = std::move(states);
   chain_of_ = std::move(chain_of);

@@ -3,23 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-
-#include <fmt/format.h>
 
 #include "base/check.h"
-#include "base/error.h"
 #include "base/natural_log.h"
 #include "derivation/strip.h"
 #include "search/initial_population.h"
 #include "search/require.h"
-#include "search/temperature.h"
 
 namespace espalier {
 SmcEngine::SmcEngine(const SearchProblem& problem, const SmcSettings& settings)
     : problem_(problem), settings_(validated(settings)) {
   CHECK(problem_.scorer != nullptr);
-  beta_ = inverse_temperature(settings_.temperature, problem_.scorer->optimum(), 100);
+  beta_ = inverse_temperature(settings_.weight, settings_.temperature, problem_.scorer->optimum(), 100);
   particle_count_ = settings_.particles;
 }
 
@@ -88,8 +83,8 @@ void SmcEngine::begin_sweep() {
     RandomStream random({problem_.seed, Purpose::initial, problem_.lane, static_cast<std::uint32_t>(i + 1),
                          static_cast<std::uint32_t>(steps_)});
     particles_[i].derivation = begin_particle(i, random);
-    // As if it had scored 0 before: its first weight is exp(beta * score), or the score itself.
-    particles_[i].score = settings_.weight == ParticleWeight::ratio ? 1 : 0;
+    // As if it had weighed 1 before: its first weight is that of its score.
+    particles_[i].score = settings_.weight == ScoreWeight::ratio ? 1 : 0;
     admit(i);
   }
 }
@@ -148,11 +143,7 @@ void SmcEngine::bury(std::size_t particle) {
 }
 
 double SmcEngine::increment(double before, double after) const {
-  if (settings_.weight == ParticleWeight::exponential) return beta_ * (after - before);
-  if (!(after > 0)) {
-    throw Error(fmt::format("weight \"ratio\" needs scores above 0, got {} (use \"exponential\")", after));
-  }
-  return natural_log(after) - natural_log(before);
+  return beta_ * (log_weight(settings_.weight, after) - log_weight(settings_.weight, before));
 }
 
 void SmcEngine::score_grown() {
@@ -175,19 +166,8 @@ void SmcEngine::score_grown() {
 }
 
 void SmcEngine::sort_particles() {
-  order_.resize(particles_.size());
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) {
-    return particles_[a].score != particles_[b].score ? particles_[a].score > particles_[b].score : a < b;
-  });
-  scratch_.resize(particles_.size());
-  log_scratch_.resize(particles_.size());
-  for (std::size_t rank = 0; rank < order_.size(); ++rank) {
-    std::swap(scratch_[rank], particles_[order_[rank]]);
-    log_scratch_[rank] = log_weights_[order_[rank]];
-  }
-  particles_.swap(scratch_);
-  log_weights_.swap(log_scratch_);
+  best_first_.sort(particles_);
+  best_first_.follow(log_weights_, log_scratch_);
   while (living_ > 0 && particles_[living_ - 1].score == kNotAcceptable) --living_;
 }
 
@@ -237,6 +217,7 @@ void SmcEngine::end_sweep() {
     normalise(log_weights_, weights_);
     effective_ = effective_size(weights_);
   }
+  last_log_evidence_ = living_ > 0 ? log_evidence_ : kNothingToTell;
   const double next = std::ceil(particle_count_ * settings_.schedule);
   particle_count_ = static_cast<std::uint32_t>(
       std::min<double>(std::max(settings_.most_particles, settings_.particles), next));

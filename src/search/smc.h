@@ -4,7 +4,7 @@
 // the order of the text (SMC) or at random open slots (SOSMC), scores it, and multiplies its weight by what its score
 // rose. Particles are resampled where few carry most of the weight. When all are finished, they follow
 //
-//     prior(derivation) * exp(score / temperature), restricted to what is acceptable,
+//     prior(derivation) * exp(score / temperature), restricted to what is acceptable (or * score^(1 / temperature)),
 //
 // weighted, and the product of mean weights is an unbiased estimate of its integral (unless `most_steps` cut some short).
 // Then another sweep begins.
@@ -16,7 +16,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "search/best_first.h"
 #include "search/engine.h"
+#include "search/gauges.h"
 #include "search/smc_settings.h"
 
 namespace espalier {
@@ -52,6 +54,7 @@ class SmcEngine final : public Engine {
   /// Finished always: of unfinished particles, a closed copy is scored.
   const Individual& best() const override;
   std::vector<NamedCount> diagnostics() const override;
+  std::vector<NamedGauge> gauges() const override;
   void save(std::ostream& out) const override;
   void load(std::istream& in) override;
 
@@ -59,6 +62,8 @@ class SmcEngine final : public Engine {
   double beta() const { return beta_; }
   /// log weights of population(), not normalised.
   std::span<const double> log_weights() const { return std::span(log_weights_).first(living_); }
+  /// Sweeps that have ended.
+  std::uint64_t sweeps() const { return counts_.sweeps; }
   /// The sweep has ended: the next step begins another.
   bool sweep_is_over() const { return sweep_step_ == 0; }
   /// Of the sweep so far: log of the unbiased estimate of the integral above; -infinity where no particle is left.
@@ -91,6 +96,7 @@ class SmcEngine final : public Engine {
   double log_evidence_ = 0;
   double log_mean_ = 0;           // product of the mean weights at the resamplings of this sweep
   double effective_ = 0;
+  double last_log_evidence_ = kNothingToTell;  // of the last sweep that ended; where none was left, nothing
   SmcCounts counts_;
   Individual best_;
 
@@ -103,7 +109,7 @@ class SmcEngine final : public Engine {
   std::vector<const Derivation*> batch_;
   std::vector<double> scores_, weights_;
   std::vector<std::uint32_t> ancestors_;
-  std::vector<std::size_t> order_;
+  BestFirst best_first_;
   std::vector<Individual> scratch_;
   std::vector<double> log_scratch_;
 };

@@ -8,13 +8,9 @@
 #include "derivation/sample.h"
 #include "search/gene_limits.h"
 #include "search/resampling.h"
+#include "search/score_weight.h"
 
 namespace espalier {
-
-enum class ParticleWeight : std::uint8_t {
-  exponential,  // exp(score / temperature)
-  ratio,        // the score itself, which must be > 0: the papers' form
-};
 
 struct SmcSettings {
   SlotOrder order = SlotOrder::random;
@@ -24,8 +20,8 @@ struct SmcSettings {
   std::uint32_t most_steps = 10'000;    // of growth in a sweep; then what is unfinished is closed. 1..1000000
   Resampling resampling = Resampling::systematic;
   double resample_below = 0.5;  // share of particles: resample where the effective size is below; 1 = every step
-  ParticleWeight weight = ParticleWeight::exponential;
-  /// > 0; none: a hundredth of the optimum, or 1 where that is not above 0.
+  ScoreWeight weight = ScoreWeight::exponential;
+  /// > 0; none: a hundredth of the optimum, or 1 where that is not above 0; 1 with ratios.
   std::optional<double> temperature = std::nullopt;
   std::uint32_t initial_length_min = 50, initial_length_max = 50;  // of the individuals that are there from the start
   GeneLimits genes = {};

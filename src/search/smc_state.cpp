@@ -13,7 +13,7 @@ namespace espalier {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x0a43'4d53'5053'45ull;  // the bytes "ESPSMC\n"
-constexpr std::uint64_t kStateVersion = 1;
+constexpr std::uint64_t kStateVersion = 2;
 
 struct Entry {
   const char* name;
@@ -40,12 +40,19 @@ std::vector<NamedCount> SmcEngine::diagnostics() const {
   return all;
 }
 
+std::vector<NamedGauge> SmcEngine::gauges() const {
+  return {{"effective particles", effective_ > 0 ? effective_ : kNothingToTell},
+          {"living particles", steps_ > 0 ? static_cast<double>(living_) : kNothingToTell},
+          {"log evidence", last_log_evidence_},
+          {"distinct", share_distinct(std::span(particles_).first(living_))}};
+}
+
 void SmcEngine::save(std::ostream& out) const {
   StateWriter writer(out);
   write_head(writer, kMagic, kStateVersion, fingerprint("smc", problem_, to_text(settings_)));
   for (const std::uint64_t value : {steps_, evaluations_, sweep_step_, std::uint64_t{particle_count_}})
     writer.u64(value);
-  for (const double value : {log_evidence_, log_mean_, effective_}) writer.f64(value);
+  for (const double value : {log_evidence_, log_mean_, effective_, last_log_evidence_}) writer.f64(value);
   for (const Entry& entry : kEntries) writer.u64(counts_.*entry.member);
   writer.u64(living_);
   if (steps_ == 0) return;
@@ -65,6 +72,7 @@ void SmcEngine::load(std::istream& in) {
     throw Error(fmt::format("saved state: particles must be at least {}, got {}", settings_.particles, particles));
   }
   const double log_evidence = reader.f64(), log_mean = reader.f64(), effective = reader.f64();
+  const double last_log_evidence = reader.f64();
   SmcCounts counts;
   for (const Entry& entry : kEntries) counts.*entry.member = reader.u64();
   const std::uint64_t living = reader.u64_at_most(sweep_step > 0 ? particles : settings_.most_particles, "living particles");
@@ -81,6 +89,7 @@ void SmcEngine::load(std::istream& in) {
   steps_ = steps, evaluations_ = evaluations, sweep_step_ = sweep_step;
   particle_count_ = static_cast<std::uint32_t>(particles);
   log_evidence_ = log_evidence, log_mean_ = log_mean, effective_ = effective;
+  last_log_evidence_ = last_log_evidence;
   counts_ = counts;
   best_ = std::move(best);
   living_ = individuals.size();

@@ -12,6 +12,22 @@
 
 namespace espalier::testing {
 
+/// All gauges, names and values.
+inline std::string gauges_of(const Engine& engine) {
+  std::ostringstream text;
+  text.precision(17);
+  for (const NamedGauge& gauge : engine.gauges()) text << gauge.name << ' ' << gauge.value << ' ';
+  return text.str();
+}
+
+inline double gauge_of(const Engine& engine, const std::string& name) {
+  for (const NamedGauge& gauge : engine.gauges()) {
+    if (gauge.name == name) return gauge.value;
+  }
+  ADD_FAILURE() << "no gauge named " << name;
+  return 0;
+}
+
 /// Everything that each of the next `steps` steps leaves behind, a line each.
 inline std::string log_of(Engine& engine, int steps) {
   std::ostringstream log;
@@ -21,6 +37,7 @@ inline std::string log_of(Engine& engine, int steps) {
     log << engine.steps() << ' ' << engine.evaluations() << ' ' << engine.best().score;
     for (const Individual& individual : engine.population()) log << ' ' << hash(individual.derivation);
     for (const NamedCount& count : engine.diagnostics()) log << ' ' << count.value;
+    log << ' ' << gauges_of(engine);
     log << '\n';
   }
   return log.str();
@@ -45,6 +62,7 @@ void expect_saved_states_go_on(Make make, std::initializer_list<int> befores, in
     std::stringstream state;
     first->engine.save(state);
     second->engine.load(state);
+    EXPECT_EQ(gauges_of(second->engine), gauges_of(first->engine)) << "after " << before;
     EXPECT_EQ(log_of(second->engine, after), log_of(whole->engine, after)) << "after " << before;
   }
 }

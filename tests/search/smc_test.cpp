@@ -195,7 +195,7 @@ TEST(Smc, TheScheduleGrowsToItsEnd) {
 
 TEST(Smc, RatiosNeedScoresAboveZero) {
   SmcSettings settings = small_settings();
-  settings.weight = ParticleWeight::ratio;
+  settings.weight = ScoreWeight::ratio;
   TinyBench bench(settings);
   try {
     bench.run_sweep();

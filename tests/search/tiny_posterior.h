@@ -69,28 +69,40 @@ class TinyScorer final : public BatchScorer {
   std::shared_ptr<const GeneratorGraph> graph_;
 };
 
-/// prior * exp(beta * score) by key_of(derivation), not normalised; limits of the grammar and on genes hold.
-inline std::map<std::string, double> tiny_posterior(const GeneratorGraph& graph, double beta, std::size_t most_genes) {
+/// What the weight of a derivation of the tiny graph depends on, beside its draws, of which each Twig has one.
+struct TinyCounts {
+  std::size_t genes = 0, twigs = 0, buds = 0, forks = 0;
+};
+
+/// prior * weight(TinyCounts) by key_of(derivation), not normalised; limits of the grammar and on genes hold.
+template <typename Weight>
+std::map<std::string, double> tiny_density(const GeneratorGraph& graph, std::size_t most_genes, Weight weight) {
   std::map<std::string, double> density;
   const test::Enumeration enumeration(graph);
   for (const test::Enumerated& one : enumeration.all()) {
-    std::size_t genes = 0, forks = 0;
+    TinyCounts counts;
     bool within = true;
     for (const auto& [rule, n] : one.genes) {
-      genes += n;
+      counts.genes += n;
       within &= !graph.rules[rule].limit || n <= *graph.rules[rule].limit;
     }
     // Forked Twigs are told by their letter: three slots follow "edge.1".
-    for (std::size_t at = 0; (at = one.key.find(".1", at)) != std::string::npos; ++at) ++forks;
-    const auto found = one.genes.find(2);
-    const std::size_t buds = found == one.genes.end() ? 0 : found->second;
-    if (!within || genes > most_genes) continue;
-    // Each Twig has a draw u: the integral of exp(beta u) over 0..1.
-    const auto twigs = one.genes.find(1);
-    const double draws = std::pow((std::exp(beta) - 1) / beta, twigs == one.genes.end() ? 0 : twigs->second);
-    density[one.key] += one.probability * std::exp(beta * tiny_score(genes, buds, forks)) * draws;
+    for (std::size_t at = 0; (at = one.key.find(".1", at)) != std::string::npos; ++at) ++counts.forks;
+    if (!within || counts.genes > most_genes) continue;
+    const auto of_rule = [&](RuleId rule) { return one.genes.contains(rule) ? one.genes.at(rule) : 0; };
+    counts.twigs = of_rule(1), counts.buds = of_rule(2);
+    density[one.key] += one.probability * weight(counts);
   }
   return density;
+}
+
+/// With the weight exp(beta * score).
+inline std::map<std::string, double> tiny_posterior(const GeneratorGraph& graph, double beta, std::size_t most_genes) {
+  // Each Twig has a draw u: the integral of exp(beta u) over 0..1.
+  const double draw = (std::exp(beta) - 1) / beta;
+  return tiny_density(graph, most_genes, [&](const TinyCounts& c) {
+    return std::exp(beta * tiny_score(c.genes, c.buds, c.forks)) * std::pow(draw, c.twigs);
+  });
 }
 
 }  // namespace espalier::testing
