@@ -55,8 +55,7 @@ void read_rjmcmc(TomlSection& s, RjmcmcSettings& settings) {
 void read_hybrid(TomlSection& s, HybridSettings& settings) {
   take(settings.sweeps, s.whole("sweeps", 1, 1000));
   take(settings.start_evaluations, s.whole("start_evaluations", 1, 1'000'000'000'000));
-  take(settings.patience, s.whole("patience", 1, 1'000'000'000'000));
-  take(settings.least_rise, s.number("least_rise", 0, 1));
+  take(settings.turn, s.whole("turn", 1, 1'000'000'000'000));
 }
 
 std::string to_toml(const SmcSettings& s) {
@@ -81,8 +80,7 @@ std::string to_toml(const RjmcmcSettings& s) {
 }
 
 std::string to_toml(const HybridSettings& s) {
-  return fmt::format("sweeps = {}\nstart_evaluations = {}\npatience = {}\nleast_rise = {}\n", s.sweeps,
-                     s.start_evaluations, s.patience, format_toml(s.least_rise));
+  return fmt::format("sweeps = {}\nstart_evaluations = {}\nturn = {}\n", s.sweeps, s.start_evaluations, s.turn);
 }
 
 }  // namespace espalier

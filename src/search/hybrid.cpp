@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <istream>
-#include <ostream>
 #include <unordered_set>
 
 #include <fmt/format.h>
@@ -11,7 +9,6 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "derivation/sample.h"
-#include "search/engine_state.h"
 #include "search/ga.h"
 #include "search/gauges.h"
 #include "search/require.h"
@@ -21,8 +18,6 @@
 namespace espalier {
 namespace {
 
-constexpr std::uint64_t kMagic = 0x0a59'4850'5345ull;  // the bytes "ESPHY\n"
-constexpr std::uint64_t kStateVersion = 2;
 constexpr const char* kStages[] = {"sosmc", "ga", "rjmcmc"};
 
 }  // namespace
@@ -36,30 +31,32 @@ void validate(const HybridSettings& s) {
   }
   require_range("sweeps", s.sweeps, 1u, 1000u);
   require_range("start_evaluations", s.start_evaluations, std::uint64_t{1}, std::uint64_t{1'000'000'000'000});
-  require_range("patience", s.patience, std::uint64_t{1}, std::uint64_t{1'000'000'000'000});
-  require_range("least_rise", s.least_rise, 0.0, 1.0);
+  require_range("turn", s.turn, std::uint64_t{1}, std::uint64_t{1'000'000'000'000});
 }
 
 HybridEngine::HybridEngine(const SearchProblem& problem, const HybridSettings& settings)
     : problem_(problem), settings_(validated(settings)), founders_(problem.founders) {
   CHECK(problem_.scorer != nullptr);
-  CHECK(problem_.lane < (1u << 24) / 3);
+  CHECK(problem_.lane < (1u << 24) / (kMostHandovers + 1));
   for (std::size_t i = 0; i < counts_.size(); ++i) {
     const std::unique_ptr<Engine> engine = make_engine(static_cast<Stage>(i), {});
     counts_[i] = engine->diagnostics();
     silent_[i] = engine->gauges();
     for (NamedGauge& gauge : silent_[i]) gauge.value = kNothingToTell;
   }
-  engine_ = make_engine(stage_, founders_);
+  engine_ = make_engine(course_.stage, founders_);
 }
 
 HybridEngine::~HybridEngine() = default;
 
-std::uint32_t HybridEngine::lane_of(Stage stage) const { return problem_.lane * 3 + static_cast<std::uint32_t>(stage); }
+// Every engine that takes over draws from streams that none before it had.
+std::uint32_t HybridEngine::lane() const {
+  return static_cast<std::uint32_t>(problem_.lane * (kMostHandovers + 1) + course_.handovers);
+}
 
 std::unique_ptr<Engine> HybridEngine::make_engine(Stage stage, std::vector<Individual> founders) const {
   SearchProblem problem = problem_;
-  problem.lane = lane_of(stage);
+  problem.lane = lane();
   problem.founders = std::move(founders);
   switch (stage) {
     case Stage::start: return std::make_unique<SmcEngine>(problem, settings_.start);
@@ -70,58 +67,72 @@ std::unique_ptr<Engine> HybridEngine::make_engine(Stage stage, std::vector<Indiv
 }
 
 const Individual& HybridEngine::best() const {
-  CHECK(steps_ > 0);
+  CHECK(course_.steps > 0);
   return best_;
 }
 
 void HybridEngine::step() {
-  if (steps_ > 0 && is_over()) hand_over();
+  if (course_.steps > 0 && turn_is_over()) {
+    const Stage next = next_stage();
+    if (next != course_.stage) hand_over(next);
+    begin_turn();
+  }
   engine_->step();
-  if (steps_ == 0 || engine_->best().score > best_.score) best_ = engine_->best();
-  const double least = settings_.least_rise * std::abs(problem_.scorer->optimum());
-  if (steps_ == 0 || best_.score > risen_to_ + least) {
-    risen_to_ = best_.score;
-    risen_at_ = evaluations();
-  }
-  ++steps_;
+  if (course_.steps == 0 || engine_->best().score > best_.score) best_ = engine_->best();
+  ++course_.steps;
 }
 
-bool HybridEngine::is_over() const {
-  if (stage_ == Stage::start) {
-    const auto& start = static_cast<const SmcEngine&>(*engine_);
-    return start.sweeps() >= settings_.sweeps || start.evaluations() >= settings_.start_evaluations;
-  }
-  return stage_ == Stage::middle && evaluations() - risen_at_ >= settings_.patience;
+bool HybridEngine::turn_is_over() const {
+  if (course_.stage != Stage::start) return evaluations() - course_.turn_begun >= settings_.turn;
+  const auto& start = static_cast<const SmcEngine&>(*engine_);
+  return start.sweeps() >= settings_.sweeps || start.evaluations() >= settings_.start_evaluations;
 }
 
-void HybridEngine::hand_over() {
-  const bool to_middle = stage_ == Stage::start;
-  founders_ = heirs(to_middle ? settings_.middle.population : settings_.end.chains);
-  evaluations_before_ += engine_->evaluations();
-  counts_[static_cast<std::size_t>(stage_)] = engine_->diagnostics();
-  stage_ = to_middle ? Stage::middle : Stage::end;
-  engine_ = make_engine(stage_, founders_);
-  risen_at_ = evaluations();
+/// Who goes on. A gain of long ago is a hope, not a fact: whoever was tried on it and did worse waits twice as long.
+HybridEngine::Stage HybridEngine::next_stage() {
+  if (course_.stage == Stage::start) return Stage::middle;
+  const Stage rival = course_.stage == Stage::middle ? Stage::end : Stage::middle;
+  Standing &mine = standing(course_.stage), &other = standing(rival);
+  mine.ran = true;
+  mine.gain = (best_.score - course_.turn_best) / static_cast<double>(evaluations() - course_.turn_begun);
+  if (course_.on_trial) mine.wait = mine.gain < other.gain ? std::min(2 * mine.wait, kLongestWait) : 1;
+  ++other.rests;
+  if (course_.handovers == kMostHandovers) return course_.stage;
+  if (!other.ran) return rival;
+  const bool stalled = mine.gain == 0 && other.gain == 0;
+  if (mine.gain < other.gain || stalled) return rival;
+  return other.rests >= other.wait ? rival : course_.stage;
 }
 
-/// The best ever and the best of the population, each once, finished and within the limits. Of what is unfinished, a
-/// closed copy is scored.
+void HybridEngine::begin_turn() {
+  course_.turn_best = best_.score;
+  course_.turn_begun = evaluations();
+}
+
+void HybridEngine::hand_over(Stage to) {
+  const std::span<const Individual> population = engine_->population();
+  if (course_.stage == Stage::middle) bred_.assign(population.begin(), population.end());
+  founders_ = heirs(to == Stage::middle ? settings_.middle.population : settings_.end.chains);
+  counts_[static_cast<std::size_t>(course_.stage)] = counts_of(course_.stage);
+  course_.evaluations_before += engine_->evaluations();
+  course_.on_trial = course_.stage != Stage::start && standing(to).gain < standing(course_.stage).gain;
+  standing(to).rests = 0;
+  ++course_.handovers;
+  course_.stage = to;
+  engine_ = make_engine(course_.stage, founders_);
+}
+
+/// The best ever, the population, and what the genetic algorithm had, each once, finished and within the limits. Of what
+/// is unfinished, a closed copy is scored.
 std::vector<Individual> HybridEngine::heirs(std::size_t most) {
   std::vector<Individual> all = {best_};
   std::unordered_set<std::uint64_t> seen = {hash(best_.derivation)};
   std::vector<std::size_t> unscored;
   const std::span<const Individual> population = engine_->population();
-  for (std::size_t i = 0; i < population.size() && all.size() < most; ++i) {
-    const GeneLimits& genes = settings_.middle.genes;
-    Individual heir = population[i];
+  for (std::size_t i = 0; i < population.size() + bred_.size() && all.size() < most; ++i) {
+    Individual heir = i < population.size() ? population[i] : bred_[i - population.size()];
     const bool finished = is_finished(heir.derivation);
-    if (!finished) {
-      RandomStream random({problem_.seed, Purpose::close, lane_of(Stage::middle), static_cast<std::uint32_t>(i),
-                           static_cast<std::uint32_t>(steps_)});
-      if (!close_open_slots(*problem_.graph, heir.derivation, random, genes.max)) continue;
-    }
-    if (heir.derivation.size() < genes.min || heir.derivation.size() > genes.max) continue;
-    if (!seen.insert(hash(heir.derivation)).second) continue;
+    if (!make_heir(heir, i) || !seen.insert(hash(heir.derivation)).second) continue;
     if (!finished) unscored.push_back(all.size());
     all.push_back(std::move(heir));
   }
@@ -131,21 +142,40 @@ std::vector<Individual> HybridEngine::heirs(std::size_t most) {
   return all;
 }
 
+/// Finishes it; false where it cannot be, or is beyond the limits.
+bool HybridEngine::make_heir(Individual& heir, std::size_t place) const {
+  const GeneLimits& genes = settings_.middle.genes;
+  if (!is_finished(heir.derivation)) {
+    RandomStream random({problem_.seed, Purpose::close, lane() + 1, static_cast<std::uint32_t>(place),
+                         static_cast<std::uint32_t>(course_.steps)});
+    if (!close_open_slots(*problem_.graph, heir.derivation, random, genes.max)) return false;
+  }
+  return heir.derivation.size() >= genes.min && heir.derivation.size() <= genes.max;
+}
+
 void HybridEngine::score(const std::vector<std::size_t>& which, std::vector<Individual>& individuals) {
   if (which.empty()) return;
   std::vector<const Derivation*> batch;
   for (const std::size_t i : which) batch.push_back(&individuals[i].derivation);
   std::vector<double> scores(batch.size());
   problem_.scorer->score(batch, scores);
-  evaluations_before_ += batch.size();
+  course_.evaluations_before += batch.size();
   for (std::size_t k = 0; k < which.size(); ++k) individuals[which[k]].score = scores[k];
 }
 
+/// Of all its turns.
+std::vector<NamedCount> HybridEngine::counts_of(Stage stage) const {
+  std::vector<NamedCount> counts = counts_[static_cast<std::size_t>(stage)];
+  if (stage != course_.stage) return counts;
+  const std::vector<NamedCount> running = engine_->diagnostics();
+  for (std::size_t i = 0; i < counts.size(); ++i) counts[i].value += running[i].value;
+  return counts;
+}
+
 std::vector<NamedCount> HybridEngine::diagnostics() const {
-  std::vector<NamedCount> all;
+  std::vector<NamedCount> all = {{"handovers", course_.handovers}};
   for (std::size_t i = 0; i < counts_.size(); ++i) {
-    const bool running = i == static_cast<std::size_t>(stage_);
-    for (const NamedCount& count : running ? engine_->diagnostics() : counts_[i]) {
+    for (const NamedCount& count : counts_of(static_cast<Stage>(i))) {
       all.push_back({fmt::format("{}: {}", kStages[i], count.name), count.value});
     }
   }
@@ -153,64 +183,14 @@ std::vector<NamedCount> HybridEngine::diagnostics() const {
 }
 
 std::vector<NamedGauge> HybridEngine::gauges() const {
-  std::vector<NamedGauge> all = {{"stage", static_cast<double>(stage_)}};
+  std::vector<NamedGauge> all = {{"stage", static_cast<double>(course_.stage)}};
   for (std::size_t i = 0; i < silent_.size(); ++i) {
-    const bool running = i == static_cast<std::size_t>(stage_);
+    const bool running = i == static_cast<std::size_t>(course_.stage);
     for (const NamedGauge& gauge : running ? engine_->gauges() : silent_[i]) {
       all.push_back({fmt::format("{}: {}", kStages[i], gauge.name), gauge.value});
     }
   }
   return all;
-}
-
-std::string HybridEngine::own_fingerprint() const {
-  return fingerprint("hybrid", problem_,
-                     fmt::format("sweeps {} start {} patience {} least {}; {}; {}; {}", settings_.sweeps,
-                                 settings_.start_evaluations, settings_.patience, settings_.least_rise, to_text(settings_.start), to_text(settings_.middle),
-                                 to_text(settings_.end)));
-}
-
-void HybridEngine::save(std::ostream& out) const {
-  StateWriter writer(out);
-  write_head(writer, kMagic, kStateVersion, own_fingerprint());
-  writer.u64(static_cast<std::uint64_t>(stage_));
-  writer.u64(steps_);
-  writer.u64(evaluations_before_);
-  writer.f64(risen_to_);
-  writer.u64(risen_at_);
-  for (const auto& of_stage : counts_) {
-    for (const NamedCount& count : of_stage) writer.u64(count.value);
-  }
-  writer.u64(founders_.size());
-  for (const Individual& founder : founders_) write_individual(writer, founder);
-  if (steps_ > 0) write_individual(writer, best_);
-  engine_->save(out);
-}
-
-void HybridEngine::load(std::istream& in) {
-  StateReader reader(in);
-  read_head(reader, kMagic, kStateVersion, own_fingerprint());
-  const auto stage = static_cast<Stage>(reader.u64_at_most(2, "stage"));
-  const std::uint64_t steps = reader.u64(), before = reader.u64();
-  const double risen_to = reader.f64();
-  const std::uint64_t risen_at = reader.u64();
-  auto counts = counts_;
-  for (auto& of_stage : counts) {
-    for (NamedCount& count : of_stage) count.value = reader.u64();
-  }
-  const std::uint64_t size = reader.u64_at_most(1'000'000, "founders");
-  std::vector<Individual> founders;
-  for (std::uint64_t i = 0; i < size; ++i) founders.push_back(read_finished_individual(reader, *problem_.graph, settings_.middle.genes));
-  Individual best;
-  if (steps > 0) best = read_finished_individual(reader, *problem_.graph, settings_.middle.genes);
-  std::unique_ptr<Engine> engine = make_engine(stage, founders);
-  engine->load(in);
-
-  stage_ = stage, steps_ = steps, evaluations_before_ = before, risen_to_ = risen_to, risen_at_ = risen_at;
-  counts_ = std::move(counts);
-  founders_ = std::move(founders);
-  best_ = std::move(best);
-  engine_ = std::move(engine);
 }
 
 }  // namespace espalier

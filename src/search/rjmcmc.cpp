@@ -21,7 +21,7 @@ RjmcmcEngine::RjmcmcEngine(const SearchProblem& problem, const RjmcmcSettings& s
       counts_then_(counts_),
       recent_(counts_) {
   CHECK(problem_.scorer != nullptr);
-  beta_ = inverse_temperature(settings_.weight, settings_.temperature, problem_.scorer->optimum(), 1000);
+  beta_ = inverse_temperature(settings_.weight, settings_.temperature, problem_.scorer->optimum(), 3000);
 }
 
 const Individual& RjmcmcEngine::best() const {

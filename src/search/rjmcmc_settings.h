@@ -13,13 +13,13 @@
 namespace espalier {
 
 struct RjmcmcSettings {
-  std::uint32_t chains = 16;         // 1..100000
-  std::uint32_t temperatures = 8;    // chains of a ladder, 1..chains; chain i has rung i mod temperatures
+  std::uint32_t chains = 4;          // 1..100000
+  std::uint32_t temperatures = 4;    // chains of a ladder, 1..chains; chain i has rung i mod temperatures
   /// Hottest over coldest temperature: 12.91 lets through in the coldest 1 % of what passes in the hottest with 70 %
   /// (ln 0.01 / ln 0.7; Talton et al. 2011, section 5.2). 1..1e6.
   double heat = 12.91;
   ScoreWeight weight = ScoreWeight::exponential;
-  /// Of the coldest chain, > 0; none: a thousandth of the optimum, or 1 where that is not above 0; 1 with ratios.
+  /// Of the coldest chain, > 0; none: a 3000th of the optimum, or 1 where that is not above 0; 1 with ratios.
   std::optional<double> temperature;
   double anneal = 1;                  // beta grows by this factor every `anneal_every` steps, 1..100
   std::uint32_t anneal_every = 1000;  // 1..1e9

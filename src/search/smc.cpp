@@ -14,7 +14,7 @@ namespace espalier {
 SmcEngine::SmcEngine(const SearchProblem& problem, const SmcSettings& settings)
     : problem_(problem), settings_(validated(settings)) {
   CHECK(problem_.scorer != nullptr);
-  beta_ = inverse_temperature(settings_.weight, settings_.temperature, problem_.scorer->optimum(), 100);
+  beta_ = inverse_temperature(settings_.weight, settings_.temperature, problem_.scorer->optimum(), 200);
   particle_count_ = settings_.particles;
 }
 

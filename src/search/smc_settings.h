@@ -21,7 +21,7 @@ struct SmcSettings {
   Resampling resampling = Resampling::systematic;
   double resample_below = 0.5;  // share of particles: resample where the effective size is below; 1 = every step
   ScoreWeight weight = ScoreWeight::exponential;
-  /// > 0; none: a hundredth of the optimum, or 1 where that is not above 0; 1 with ratios.
+  /// > 0; none: a 200th of the optimum, or 1 where that is not above 0; 1 with ratios.
   std::optional<double> temperature = std::nullopt;
   std::uint32_t initial_length_min = 50, initial_length_max = 50;  // of the individuals that are there from the start
   GeneLimits genes = {};

@@ -21,7 +21,7 @@ using testing::TemporaryFolder;
 class Engines : public ::testing::TestWithParam<std::string_view> {
  protected:
   SceneOverrides chosen() const {
-    return {{"search.engine=" + std::string(GetParam()), "engine.hybrid.patience=200", "engine.sosmc.particles=30"},
+    return {{"search.engine=" + std::string(GetParam()), "engine.hybrid.turn=200", "engine.sosmc.particles=30"},
             {}};
   }
 };
@@ -94,7 +94,7 @@ TEST(SceneEngines, ShareLimitsAndFirstLengths) {
 
 TEST(SceneEngines, EverySettingIsWrittenAndReadAgain) {
   const Scene scene = parse(
-      "[search]\nengine = \"hybrid\"\npatience = 9\nsweeps = 2\nleast_rise = 0.5\n"
+      "[search]\nengine = \"hybrid\"\nturn = 9\nsweeps = 2\n"
       "[engine.smc]\nparticles = 9\nschedule = 1.5\nmost_particles = 99\nsteps = 7\nresampling = \"residual\"\n"
       "resample_below = 1\nweight = \"ratio\"\ntemperature = 3\n"
       "[engine.rjmcmc]\nchains = 9\ntemperatures = 3\nheat = 5\ntemperature = 0.5\nanneal = 1.1\nanneal_every = 5\n"

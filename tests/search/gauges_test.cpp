@@ -41,7 +41,7 @@ HybridSettings small_settings() {
   s.middle.elitism = 3;
   s.end.chains = 6;
   s.end.temperatures = 3;
-  s.patience = 300;
+  s.turn = 300;
   s.start.genes = s.middle.genes = s.end.genes = {1, 60};
   s.start.initial_length_min = s.middle.initial_length_min = s.end.initial_length_min = 10;
   s.start.initial_length_max = s.middle.initial_length_max = s.end.initial_length_max = 10;
