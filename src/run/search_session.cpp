@@ -41,11 +41,11 @@ const StepReport& SearchSession::step() {
   return last_;
 }
 
-void SearchSession::add_gauges() {
+std::vector<NamedGauge> SearchSession::gauges() const {
   std::vector<NamedGauge> gauges = engine_->gauges();
   gauges.push_back({"alternatives", static_cast<double>(archive_.members().size())});
   gauges.push_back({"spread", archive_.spread()});
-  log_.add_gauges(last_, gauges);
+  return gauges;
 }
 
 SearchResult SearchSession::finish(std::string stopped_by) {
