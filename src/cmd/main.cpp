@@ -19,6 +19,9 @@ constexpr const char* kExamples = R"(Examples:
   espalier sample grammars/spaceship.esp -n 16 --seed 3 --out out/ships
   espalier run scenes/spaceship.toml --time 10 --out out/ship
   espalier run scenes/spaceship.toml --evaluations 20000 --set search.population=200
+  espalier run scenes/spaceship.toml --checkpoint-every 10 --out out/ship
+  espalier run --resume out/ship --time 60
+  espalier run scenes/spaceship.toml --from out/ship --lock Ship/Body/Body
   espalier preview scenes/tree-heart.toml -o preview.png
   espalier score out/ship/run.toml out/ship/best.derivation.json
   espalier inspect out/ship/best.png
@@ -113,7 +116,15 @@ void declare_sample(CLI::App& app, CommandLine& line) {
 void declare_run(CLI::App& app, CommandLine& line) {
   CLI::App* verb = app.add_subcommand("run", "Search a scene until its budget is spent, or Ctrl-C");
   RunVerbOptions& o = line.run;
-  verb->add_option("scene", o.scene, "Scene file (.toml)")->required();
+  verb->add_option("scene", o.scene, "Scene file (.toml)");
+  verb->add_option("--resume", o.resume, "Instead of a scene: go on with the run of this folder, from its checkpoint");
+  verb->add_flag("--force", o.force, "With --resume, where inputs have changed: search anew from the checkpoint's models");
+  verb->add_option("--checkpoint-every", o.checkpoint_seconds, "Keep a checkpoint every so many seconds of the search")
+      ->check(CLI::Range(1e-3, 1e6));
+  verb->add_option("--from", o.from, "Start from this model: a .derivation.json, or a run's folder (its best)");
+  verb->add_option("--lock", o.locks, "Keep this gene of it and all below: Hull/Wing[1]; only its numbers: Hull:draws; "
+                                      "all but numbers: Hull:structure (repeatable)")
+      ->expected(1)->take_all();
   verb->add_option("--engine", o.engine, "Search engine");
   verb->add_option("--seed", o.seed, "Seed")->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
   verb->add_option("--time", o.seconds, "Stop after this many seconds (replaces the scene's budget)");
@@ -156,6 +167,8 @@ void declare_score(CLI::App& app, CommandLine& line) {
 void declare_file_verbs(CLI::App& app, CommandLine& line) {
   CLI::App* inspect = app.add_subcommand("inspect", "Show where a file came from: seed, settings, inputs, score");
   inspect->add_option("file", line.inspect.file, "Any model, picture or JSON that espalier wrote")->required();
+  inspect->add_flag("--genes", line.inspect.genes, "List a derivation's genes: number, path, rule, draws");
+  inspect->add_option("--grammar", line.inspect.grammar, "For --genes: its grammar, if it is not in a run's folder");
   inspect->add_flag("--json", line.inspect.json, "As JSON");
   inspect->callback([&line] { line.verb = [&line] { return inspect_verb(line.inspect); }; });
 

@@ -39,7 +39,12 @@ struct SampleOptions {
 };
 
 struct RunVerbOptions {
-  std::string scene;
+  std::string scene;   // or else:
+  std::string resume;  // folder to go on from
+  bool force = false;
+  std::optional<double> checkpoint_seconds;
+  std::string from;                // derivation to start from
+  std::vector<std::string> locks;  // "PATH" or "PATH:scope"
   std::optional<std::string> engine;
   std::optional<std::uint64_t> seed;
   std::optional<double> seconds;
@@ -68,6 +73,8 @@ struct ScoreOptions {
 
 struct InspectOptions {
   std::string file;
+  std::string grammar;  // of a derivation; empty: the copy in its run's folder
+  bool genes = false;
   bool json = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "base/check.h"
 #include "derivation/sample.h"
 
 namespace espalier {
@@ -31,6 +32,13 @@ void DiverseArchive::offer(std::span<const Individual> population) {
     seen = score;
     offer(population[i]);
   }
+}
+
+void DiverseArchive::restore(std::vector<Individual> members) {
+  CHECK(members.size() <= size_);
+  members_ = std::move(members);
+  sketches_.resize(members_.size());
+  for (std::size_t i = 0; i < members_.size(); ++i) sketcher_.draw(members_[i].derivation, sketches_[i]);
 }
 
 std::vector<Individual> DiverseArchive::apart_from(const Derivation& derivation) {

@@ -19,6 +19,9 @@ class DiverseArchive {
   /// `population` is sorted, best first. Of equal scores in a row only the first is looked at; of
   /// unfinished individuals none.
   void offer(std::span<const Individual> population);
+  /// Takes the place of the members; `members` are those of an equal archive, which goes on with them.
+  void restore(std::vector<Individual> members);
+  std::size_t capacity() const { return size_; }
   /// Best first.
   const std::vector<Individual>& members() const { return members_; }
   /// Those at least `least_distance` from `derivation` too, one less than the archive's size at most.

@@ -83,6 +83,12 @@ std::string InputFiles::add_target(const std::string& path) {
   return add(name.generic_string(), read_file(path, kMostMeshBytes));
 }
 
+const InputFile& InputFiles::add_start(const std::string& path) {
+  const fs::path name = fs::path("inputs/start") / fs::path(path).filename();
+  const std::string taken = add(name.generic_string(), read_file(path, kMostMeshBytes));
+  return *std::find_if(files_.begin(), files_.end(), [&](const InputFile& file) { return file.name == taken; });
+}
+
 std::map<std::string, std::string> InputFiles::hashes() const {
   std::map<std::string, std::string> result;
   for (const InputFile& file : files_) result[file.name] = file.hash;

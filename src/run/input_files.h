@@ -23,6 +23,9 @@ class InputFiles {
   /// Takes a target's mesh or image; the same file twice is stored once. Returns its name.
   std::string add_target(const std::string& path);
 
+  /// Takes the derivations that a search starts from.
+  const InputFile& add_start(const std::string& path);
+
   const std::string& grammar_name() const { return grammar_name_; }
   const std::vector<InputFile>& files() const { return files_; }
   /// name -> hash, for provenance.

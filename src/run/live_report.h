@@ -25,6 +25,9 @@ class LiveReport final : public SearchWatcher {
   /// Waits for the refresh that is under way.
   ~LiveReport() override;
 
+  /// Goes on with the log of a search that was continued; before the first step.
+  void continue_with(const SearchLog& log) { log_ = log; }
+
   void stepped(const StepReport& report, const Individual& best) override;
   /// Ends refreshing; afterwards nothing is written any more. Returns what went wrong, empty: nothing.
   std::string end();

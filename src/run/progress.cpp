@@ -47,6 +47,9 @@ class Lines : public RunObserver {
   void started(const RunStart& start) override {
     start_ = start;
     print(headline(start));
+    if (start.resumed_from > 0) {
+      print(fmt::format("continues from step {} of {}", start.resumed_from, start.resumed_folder));
+    }
     if (!start.live.empty()) {
       print(fmt::format("watch it in {} (refreshed every {:g} s)", start.live, start.refresh_seconds));
     }

@@ -23,6 +23,8 @@ struct RunStart {
   std::uint64_t voxels = 0, pixels = 0;  // of the targets
   std::string live;  // path of the report that is refreshed while the search goes on; empty: none
   double refresh_seconds = 0;
+  std::uint64_t resumed_from = 0;  // the step that is there already; 0: a search from the start
+  std::string resumed_folder;      // where its checkpoint was
 };
 
 /// After each step.

@@ -30,7 +30,9 @@ class JsonLines final : public RunObserver {
            {"optimum", start.optimum},
            {"budget", budget},
            {"out", start.out},
-           {"live", start.live.empty() ? ordered_json() : ordered_json(start.live)}});
+           {"live", start.live.empty() ? ordered_json() : ordered_json(start.live)},
+           {"resumed_from", start.resumed_from > 0 ? ordered_json(start.resumed_from) : ordered_json()},
+           {"resumed_folder", start.resumed_from > 0 ? ordered_json(start.resumed_folder) : ordered_json()}});
   }
   void step(const StepReport& report) override {
     print({{"event", "step"},

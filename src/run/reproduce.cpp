@@ -1,7 +1,6 @@
 #include "run/reproduce.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -15,30 +14,13 @@
 #include "run/results.h"
 #include "run/sample.h"
 #include "run/scene_toml.h"
+#include "run/temporary_folder.h"
 #include "run/toml_value.h"
 
 namespace espalier {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A folder that is gone at the end of the scope.
-class TemporaryFolder {
- public:
-  TemporaryFolder() : path_((fs::temp_directory_path() / "espalier-XXXXXX").string()) {
-    if (!mkdtemp(path_.data())) throw Error(fmt::format("{}: cannot make a temporary folder", path_));
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::string file(const std::string& name) const { return (fs::path(path_) / name).string(); }
-
- private:
-  std::string path_;
-};
 
 struct Job {
   std::string path;    // the file

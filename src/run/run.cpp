@@ -1,35 +1,38 @@
-#include "run/run.h"
+#include "run/run_job.h"
 
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "run/checkpoint_writer.h"
 #include "run/live_report.h"
 #include "run/probes.h"
+#include "run/resume_point.h"
 #include "run/results.h"
-#include "run/run_folder.h"
-#include "run/search_loop.h"
 
 namespace espalier {
 namespace {
 
 namespace fs = std::filesystem;
 
-RunStart start_of(const Setup& setup, const RunOptions& options, const RunFolder& folder, const Executor& executor) {
+RunStart start_of(const RunJob& job) {
+  const Setup& setup = job.setup;
   RunStart start;
   start.grammar = setup.graph().name;
   start.engine = name_of(setup.scene.search.engine);
-  start.out = options.out;
+  start.out = job.folder.path();
   start.seed = setup.scene.seed;
   start.optimum = setup.objective.optimum();
   start.budget = setup.scene.budget;
-  start.threads = executor.workers();
+  start.threads = job.executor.workers();
   start.voxels = setup.volume ? setup.volume->grid().cell_count() : 0;
   for (const SilhouetteTarget* target : setup.silhouettes)
     start.pixels += std::uint64_t{target->settings().image.width} * target->settings().image.height;
   start.refresh_seconds = setup.scene.refresh_seconds;
-  if (start.refresh_seconds > 0) start.live = (fs::path(folder.staging()) / "report.html").string();
+  if (start.refresh_seconds > 0) start.live = (fs::path(job.folder.staging()) / "report.html").string();
+  start.resumed_from = job.session.last().step;
+  start.resumed_folder = job.resumed_folder;
   return start;
 }
 
@@ -76,6 +79,41 @@ RunEnd end_of(const SearchResult& result, const Setup& setup, const RunFolder& f
 
 }  // namespace
 
+bool do_run(const RunJob& job) {
+  const Setup& setup = job.setup;
+  const Scene& scene = setup.scene;
+  job.observer.started(start_of(job));
+  for (const std::string& warning : setup.warnings) job.observer.warning(warning);
+
+  SearchControl control;
+  control.budget = scene.budget;
+  control.stop = job.stop;
+  control.observer = &job.observer;
+  std::optional<LiveReport> live;
+  if (scene.refresh_seconds > 0) {
+    live.emplace(setup, settings_text(setup), job.folder.staging(), job.folder.path(), scene.refresh_seconds);
+    live->continue_with(job.session.log());
+    control.watcher = &*live;
+  }
+  std::optional<CheckpointWriter> keeper;
+  if (scene.checkpoint_seconds > 0) {
+    keeper.emplace(job.folder, job.observer, settings_text(setup), scene.checkpoint_seconds,
+                   job.session.last().seconds);
+    control.keeper = &*keeper;
+  }
+  const std::optional<SearchResult> result = run_search(job.session, control);
+  if (const std::string problem = live ? live->end() : ""; !problem.empty()) {
+    job.observer.warning("the report could not be refreshed: " + problem);
+  }
+  if (!result) return false;
+
+  job.observer.writing();
+  ResultWriter writer(setup, *result, job.executor);
+  finish(job.folder, write_all(writer, job.folder.staging()));
+  job.observer.finished(end_of(*result, setup, job.folder));
+  return true;
+}
+
 bool run_scene(const Scene& scene, const RunOptions& options, MeshSource& source) {
   RunObserver silent;
   RunObserver& observer = options.observer ? *options.observer : silent;
@@ -83,30 +121,13 @@ bool run_scene(const Scene& scene, const RunOptions& options, MeshSource& source
   const std::unique_ptr<Setup> setup = set_up(scene, source);
   // Before the search, so that an unusable folder costs no search.
   RunFolder folder(options.out, kRunMarker);
-  observer.started(start_of(*setup, options, folder, *executor));
-  for (const std::string& warning : setup->warnings) observer.warning(warning);
-  for (const std::string& warning : warn_of_reach(*setup, find_reach(*setup))) observer.warning(warning);
-
-  SearchControl control;
-  control.budget = scene.budget;
-  control.stop = options.stop;
-  control.observer = &observer;
-  std::optional<LiveReport> live;
-  if (scene.refresh_seconds > 0) {
-    live.emplace(*setup, settings_text(*setup), folder.staging(), folder.path(), scene.refresh_seconds);
-    control.watcher = &*live;
+  for (std::string& warning : warn_of_reach(*setup, find_reach(*setup))) setup->warnings.push_back(std::move(warning));
+  for (const std::string& left : left_behind(options.out)) {
+    setup->warnings.push_back(fmt::format("an interrupted run left {} behind; `espalier run --resume` continues it",
+                                          left));
   }
-  const std::optional<SearchResult> result = run_search(*setup, control, *executor);
-  if (const std::string problem = live ? live->end() : ""; !problem.empty()) {
-    observer.warning("the report could not be refreshed: " + problem);
-  }
-  if (!result) return false;
-
-  observer.writing();
-  ResultWriter writer(*setup, *result, *executor);
-  finish(folder, write_all(writer, folder.staging()));
-  observer.finished(end_of(*result, *setup, folder));
-  return true;
+  SearchSession session(*setup, *executor);
+  return do_run({*setup, folder, *executor, session, observer, options.stop});
 }
 
 }  // namespace espalier

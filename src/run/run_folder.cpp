@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include <sys/stat.h>
 
@@ -16,19 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "a/b/" and "a/b/." are a/b.
-std::string without_trailing_slash(const std::string& path) {
-  if (path.empty()) throw Error("--out must name a folder, got \"\"");
-  fs::path p = fs::path(path).lexically_normal();
-  if (!p.has_filename()) p = p.parent_path();
-  if (p.empty() || p == p.root_path() || p.filename() == "." || p.filename() == "..") {
-    throw Error(fmt::format("--out must name a folder of its own, got \"{}\"", path));
-  }
-  return p.string();
-}
-
-std::string make_unique_sibling(const std::string& path) {
-  std::string name = path + ".partial-XXXXXX";
+std::string make_unique_sibling(const std::string& path, const char* what) {
+  std::string name = fmt::format("{}.{}-XXXXXX", path, what);
   if (!mkdtemp(name.data())) {
     throw Error(fmt::format("{}: cannot make an output folder here: {}", path, std::strerror(errno)));
   }
@@ -38,7 +28,28 @@ std::string make_unique_sibling(const std::string& path) {
 
 }  // namespace
 
-RunFolder::RunFolder(const std::string& path, std::string_view marker) : path_(without_trailing_slash(path)) {
+std::string folder_path(const std::string& path) {
+  if (path.empty()) throw Error("--out must name a folder, got \"\"");
+  fs::path p = fs::path(path).lexically_normal();
+  if (!p.has_filename()) p = p.parent_path();
+  if (p.empty() || p == p.root_path() || p.filename() == "." || p.filename() == "..") {
+    throw Error(fmt::format("--out must name a folder of its own, got \"{}\"", path));
+  }
+  return p.string();
+}
+
+RunFolder::RunFolder(const std::string& path, std::string_view marker) : path_(folder_path(path)) {
+  open(marker);
+  staging_ = make_unique_sibling(path_, "partial");
+}
+
+RunFolder::RunFolder(const std::string& path, std::string_view marker, std::string staging, FolderLock lock)
+    : path_(folder_path(path)), staging_(std::move(staging)), lock_(std::move(lock)), staging_kept_(true) {
+  open(marker);
+}
+
+/// Throws where the path is not ours to take; makes the folders above it.
+void RunFolder::open(std::string_view marker) const {
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
   if (fs::exists(status)) {
@@ -53,7 +64,6 @@ RunFolder::RunFolder(const std::string& path, std::string_view marker) : path_(w
   const fs::path parent = fs::path(path_).parent_path();
   if (!parent.empty()) fs::create_directories(parent, error);
   if (error) throw Error(fmt::format("{}: cannot make the folder: {}", parent.string(), error.message()));
-  staging_ = make_unique_sibling(path_);
 }
 
 RunFolder::~RunFolder() {
@@ -66,7 +76,7 @@ void RunFolder::commit() {
   std::error_code error;
   std::string old;
   if (fs::exists(path_)) {
-    old = make_unique_sibling(path_);
+    old = make_unique_sibling(path_, "replaced");
     fs::rename(path_, old, error);
   }
   if (!error) fs::rename(staging_, path_, error);
@@ -76,7 +86,14 @@ void RunFolder::commit() {
   }
   if (error) throw Error(fmt::format("{}: cannot give the finished folder its name: {}", path_, error.message()));
   staging_kept_ = true;
+  fs::remove(fs::path(path_) / FolderLock::kName, error);
   if (!old.empty()) fs::remove_all(old, error);
+}
+
+void RunFolder::guard() {
+  if (lock_) return;
+  lock_ = FolderLock::take(staging_);
+  if (!lock_) throw Error(fmt::format("{}: {} is at work in it", staging_, FolderLock::holder(staging_)));
 }
 
 }  // namespace espalier

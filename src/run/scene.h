@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "run/start_settings.h"
 #include "score/limit.h"
 #include "score/silhouette_target.h"
 #include "score/volume_target.h"
@@ -21,9 +21,9 @@ namespace espalier {
 
 /// When a run ends: whichever comes first. At least one must be given.
 struct SceneBudget {
-  std::optional<double> seconds;
-  std::optional<std::uint64_t> evaluations;
-  std::optional<std::uint64_t> generations;  // steps of the engine; the initial population is the first
+  std::optional<double> seconds = {};
+  std::optional<std::uint64_t> evaluations = {};
+  std::optional<std::uint64_t> generations = {};  // steps of the engine; the initial population is the first
 
   bool operator==(const SceneBudget&) const = default;
 };
@@ -136,12 +136,13 @@ struct Scene {
   SceneLimits limits;
   SceneVolume volume;  // without meshes: no target
   std::vector<SceneSilhouette> silhouettes;
+  SceneStart start;
   SceneOutput output;
 
   // Not part of the scene file's meaning, and never written back:
   std::string folder;  // that paths are relative to
   int threads = 0;     // 0 = one per core; results do not depend on it
-  double refresh_seconds = 5;  // between refreshes of the report while the search goes on; 0 = none
+  double refresh_seconds = 5, checkpoint_seconds = 0;  // between refreshes of the report, and checkpoints; 0 = none
 
   bool operator==(const Scene&) const = default;
 };

@@ -7,6 +7,19 @@
 #include "base/check.h"
 
 namespace espalier {
+namespace {
+
+void add(const std::vector<Rejections>& more, std::vector<Rejections>& all) {
+  CHECK(more.size() == all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (more[i].count == 0) continue;
+    all[i].lowest = all[i].count == 0 ? more[i].lowest : std::min(all[i].lowest, more[i].lowest);
+    all[i].highest = all[i].count == 0 ? more[i].highest : std::max(all[i].highest, more[i].highest);
+    all[i].count += more[i].count;
+  }
+}
+
+}  // namespace
 
 SceneScorer::SceneScorer(const GeneratorGraph& graph, const Objective& objective, Executor& executor)
     : objective_(objective),
@@ -39,14 +52,8 @@ void SceneScorer::score(std::span<const Derivation* const> derivations, std::spa
 
 std::vector<Rejections> SceneScorer::rejections() const {
   std::vector<Rejections> all = objective_.rejections(workers_.front().scratch);
-  for (std::size_t w = 1; w < workers_.size(); ++w) {
-    const std::vector<Rejections> more = objective_.rejections(workers_[w].scratch);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      all[i].count += more[i].count;
-      all[i].lowest = std::min(all[i].lowest, more[i].lowest);
-      all[i].highest = std::max(all[i].highest, more[i].highest);
-    }
-  }
+  for (std::size_t w = 1; w < workers_.size(); ++w) add(objective_.rejections(workers_[w].scratch), all);
+  if (!before_.empty()) add(before_, all);
   return all;
 }
 

@@ -21,6 +21,8 @@ class SceneScorer final : public BatchScorer {
   std::string describe_rejections() const override;
   /// What was rejected so far, by hard limit of the objective.
   std::vector<Rejections> rejections() const;
+  /// Counts in what an equal scorer had rejected: `before` are its rejections(), names and bounds aside.
+  void count_in(std::vector<Rejections> before) { before_ = std::move(before); }
   /// The score of one derivation taken apart.
   Explanation explain(const Derivation& derivation);
 
@@ -37,6 +39,7 @@ class SceneScorer final : public BatchScorer {
   Executor& executor_;
   TargetView view_;
   std::vector<Worker> workers_;
+  std::vector<Rejections> before_;  // of an earlier scorer; empty: there was none
 };
 
 }  // namespace espalier

@@ -10,6 +10,7 @@
 #include "run/scene_engines.h"
 #include "run/scene_limits.h"
 #include "run/scene_silhouettes.h"
+#include "run/scene_start.h"
 #include "run/toml_section.h"
 
 namespace espalier {
@@ -90,6 +91,7 @@ void read_output(const TomlValue& table, const std::string& file, Scene& scene) 
   take(output.keep, s.whole("keep", 0, 99));
   take(output.distance, s.number("distance", 0, 1));
   take(scene.refresh_seconds, s.number("refresh_seconds", 0, 1e6));
+  take(scene.checkpoint_seconds, s.number("checkpoint_seconds", 0, 1e6));
   if (const auto size = s.wholes("picture", 2, 16, 8192)) {
     output.picture = {static_cast<std::uint32_t>((*size)[0]), static_cast<std::uint32_t>((*size)[1])};
   }
@@ -166,6 +168,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   }
   if (scene.volume.meshes.empty() && scene.silhouettes.empty())
     s.fail("volume", "must be given, or [[silhouette]]: a search needs meshes to fill or images to look like");
+  if (const TomlValue* t = s.table("start")) scene.start = read_start(*t, name);
   if (const TomlValue* t = s.table("output")) read_output(*t, name, scene);
   s.finish();
   share_limits(scene.search);

@@ -26,7 +26,8 @@ double mean_score(std::span<const Individual> population) {
 SearchSession::SearchSession(const Setup& setup, Executor& executor, StopwatchClock clock)
     : setup_(setup),
       scorer_(setup.graph(), setup.objective, executor),
-      engine_(make_engine(setup.scene.search, {setup.grammar.graph, {}, &scorer_, setup.scene.seed, 0})),
+      engine_(make_engine(setup.scene.search, {setup.grammar.graph, setup.locks, &scorer_, setup.scene.seed, 0,
+                                               setup.founders})),
       archive_(make_archive(setup)),
       watch_(clock) {}
 

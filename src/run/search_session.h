@@ -2,6 +2,7 @@
 // SearchSession: the search of a scene, step by step: its engine, scorer, archive of alternatives, log and stopwatch.
 // What a number of steps finds depends on the setup alone; nothing here looks at budgets.
 
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,15 +47,24 @@ class SearchSession {
   const Setup& setup() const { return setup_; }
   const Engine& engine() const { return *engine_; }
   const SearchLog& log() const { return log_; }
+  const DiverseArchive& archive() const { return archive_; }
   /// Figures of the engine and of the alternatives after the last step.
   std::vector<NamedGauge> gauges() const;
   /// Whether the last step's were kept in the log.
   bool logged_gauges() const { return log_.wants_gauges(last_.step); }
 
+  /// Writes all that an equal session needs to go on as if this one never stopped. After the first step.
+  void save(std::ostream& out) const;
+  /// Goes on where a session of the same setup was saved; before the first step. Throws Error for a damaged stream, or
+  /// one of another search; the session is of no use then.
+  void load(std::istream& in);
+
   /// What was found; after the first step. The session cannot go on afterwards.
   SearchResult finish(std::string stopped_by);
 
  private:
+  void check_loaded() const;
+
   const Setup& setup_;
   SceneScorer scorer_;
   std::unique_ptr<Engine> engine_;

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "run/founders.h"
 #include "run/scene_silhouettes.h"
 #include "run/scene_limits.h"
 #include "run/silhouette_weights.h"
@@ -181,6 +182,7 @@ std::unique_ptr<Setup> set_up(const Scene& scene, MeshSource& source) {
     setup->targets.push_back(place_mesh(source.load(path), mesh));
   }
   build_objective(*setup, scene);
+  take_founders(*setup, scene);
   return setup;
 }
 

@@ -11,6 +11,7 @@
 #include "run/scene.h"
 #include "score/combined_objective.h"
 #include "score/silhouette_target.h"
+#include "search/engine.h"
 
 namespace espalier {
 
@@ -23,6 +24,8 @@ struct Setup {
   Objective objective;
   const VolumeTarget* volume = nullptr;  // in the objective, if the scene has one
   std::vector<const SilhouetteTarget*> silhouettes;  // in the objective, order of scene.silhouettes
+  std::vector<Individual> founders;  // best first; what the search starts from beside what grows at random
+  Locks locks;                       // hold for all founders
   Bounds stage;  // where models are expected: the grid's box, or where the silhouettes' probes were
   std::optional<Probes> probes;  // where setting up had to grow them, until find_reach uses them up
   InputFiles inputs;

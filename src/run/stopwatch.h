@@ -18,6 +18,8 @@ class Stopwatch {
   void go() {
     if (!running_) start_ = now(), running_ = true;
   }
+  /// It stands at so many seconds.
+  void set(double seconds) { before_ = seconds, running_ = false; }
   void pause() { before_ = seconds(), running_ = false; }
   double seconds() const { return running_ ? before_ + (now() - start_) : before_; }
 

@@ -1,25 +1,30 @@
 #include "search/engine_state.h"
 
+#include <bit>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "derivation/encode.h"
 #include "derivation/sample.h"
 
 namespace espalier {
 
 std::string fingerprint(std::string_view engine, const SearchProblem& problem, const std::string& settings) {
-  std::string locks, founders;
+  std::string locks;
   for (const Lock& lock : problem.locks) {
     locks += fmt::format(" {}{}", static_cast<int>(lock.scope), format_gene_path(*problem.graph, lock.path));
   }
+  // A hash for all of them: there may be thousands.
+  std::uint64_t founders = 0;
   for (const Individual& founder : problem.founders) {
-    founders += fmt::format(" {:x}={}", hash(founder.derivation), founder.score);
+    founders = key_below(key_below(founders, hash(founder.derivation)), std::bit_cast<std::uint64_t>(founder.score));
   }
-  return fmt::format("{} {} seed {} lane {} optimum {} locks{} founders{} {}", engine, problem.graph->source_hash,
-                     problem.seed, problem.lane, problem.scorer->optimum(), locks, founders, settings);
+  return fmt::format("{} {} seed {} lane {} optimum {} locks{} founders {} {:x} {}", engine,
+                     problem.graph->source_hash, problem.seed, problem.lane, problem.scorer->optimum(), locks,
+                     problem.founders.size(), founders, settings);
 }
 
 void write_head(StateWriter& writer, std::uint64_t magic, std::uint64_t version, const std::string& fingerprint) {

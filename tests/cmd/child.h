@@ -25,7 +25,7 @@ struct ChildResult {
 struct ChildOptions {
   std::string folder = ".";       // to run in
   rlim_t most_file_bytes = 0;     // 0 = no limit
-  std::string interrupt_when;     // SIGINT as soon as this stands in its output
+  std::string interrupt_when = {}; // SIGINT as soon as this stands in its output
 };
 
 inline std::string slurp(const std::string& path) {

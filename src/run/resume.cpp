@@ -1,0 +1,147 @@
+// Going on from checkpoints.
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "io/file.h"
+#include "run/checkpoint_changes.h"
+#include "run/founders.h"
+#include "run/results.h"
+#include "run/resume_point.h"
+#include "run/run_job.h"
+#include "run/scene_toml.h"
+#include "run/temporary_folder.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_given(const SceneBudget& budget) { return budget.seconds || budget.evaluations || budget.generations; }
+
+/// The scene of the folder as it lies there, with what was asked for.
+Scene scene_in(const ResumePoint& point, const ResumeRequest& request) {
+  Scene scene = load_scene((fs::path(point.folder) / kRunMarker).string());
+  const Checkpoint& c = point.checkpoint;
+  scene.threads = request.threads.value_or(c.threads);
+  scene.refresh_seconds = c.refresh_seconds;
+  scene.checkpoint_seconds = request.checkpoint_seconds.value_or(c.checkpoint_seconds);
+  if (is_given(request.budget)) scene.budget = request.budget;
+  return scene;
+}
+
+/// A finished run whose budget is spent has nothing to go on for.
+void expect_budget_left(const ResumePoint& point, const SceneBudget& budget) {
+  if (!point.finished()) return;
+  const Checkpoint& c = point.checkpoint;
+  std::string spent;
+  if (budget.generations && c.step >= *budget.generations) {
+    spent = fmt::format("{} of {} generations are done", c.step, *budget.generations);
+  } else if (budget.evaluations && c.evaluations >= *budget.evaluations) {
+    spent = fmt::format("{} of {} evaluations are done", c.evaluations, *budget.evaluations);
+  } else if (budget.seconds && c.seconds >= *budget.seconds) {
+    spent = fmt::format("{:.1f} of {:g} seconds are over", c.seconds, *budget.seconds);
+  }
+  if (spent.empty()) return;
+  throw Error(fmt::format("{}: is a finished run: {}. Give it more in all with --time, --evaluations or --generations",
+                          point.folder, spent));
+}
+
+/// Removes what an ended process may have half written: all but what the search needs, and the report that people watch.
+void tidy(const std::string& folder) {
+  constexpr const char* kKept[] = {kCheckpointName, kRunMarker, "inputs", FolderLock::kName, "report.html", "best.png"};
+  std::vector<fs::path> stale;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const auto is_kept = [&](const char* name) { return entry.path().filename() == name; };
+    if (std::none_of(std::begin(kKept), std::end(kKept), is_kept)) stale.push_back(entry.path());
+  }
+  std::error_code ignored;
+  for (const fs::path& path : stale) fs::remove_all(path, ignored);
+}
+
+class Resumption {
+ public:
+  Resumption(const ResumeRequest& request, const RunOptions& options, MeshSource& source)
+      : request_(request), options_(options), source_(source), point_(find_resume_point(request.folder)),
+        path_(options.out.empty() ? point_.path : folder_path(options.out)), scene_(scene_in(point_, request)) {}
+
+  bool run() {
+    std::vector<std::string> changes = folder_changes(point_.folder, scene_, point_.checkpoint);
+    if (!changes.empty()) return run_changed(changes);
+    expect_budget_left(point_, scene_.budget);
+    executor_ = make_tbb_executor(scene_.threads);
+    const std::unique_ptr<Setup> setup = set_up(scene_, source_);
+    SearchSession session(*setup, *executor_);
+    try {
+      std::istringstream state(point_.checkpoint.state);
+      session.load(state);
+    } catch (const Error& error) {
+      return run_changed({error.what()});
+    }
+    return go_on(*setup, session);
+  }
+
+ private:
+  /// In the folder that was left behind, if the results are to take its place.
+  bool go_on(const Setup& setup, SearchSession& session) {
+    const std::string from = point_.folder;
+    const bool adopted = point_.lock && path_ == point_.path;
+    if (adopted) tidy(from);
+    RunFolder folder = adopted ? RunFolder(path_, kRunMarker, from, std::move(*point_.lock)) : RunFolder(path_, kRunMarker);
+    const bool done = do_run({setup, folder, *executor_, session, observer_of(options_), options_.stop, from});
+    std::error_code ignored;
+    if (done && !adopted && point_.lock) fs::remove_all(from, ignored);
+    return done;
+  }
+
+  bool run_changed(const std::vector<std::string>& changes) {
+    std::string list;
+    for (const std::string& change : changes) list += "\n  " + change;
+    if (!request_.force) {
+      throw Error(fmt::format("{}: the search cannot go on as it was:{}\n--force begins a new one with the best {} of "
+                              "its models", point_.folder, list,
+                              std::count(point_.checkpoint.population.begin(), point_.checkpoint.population.end(), '\n')));
+    }
+    const TemporaryFolder temporary;
+    return begin_anew(temporary, list);
+  }
+
+  bool begin_anew(const TemporaryFolder& temporary, const std::string& changes) {
+    const std::string grammar = (fs::path(scene_.folder) / scene_.grammar).string();
+    const std::string models = adapted_lines(*load_grammar(grammar, scene_.attributes).graph, point_.checkpoint.population);
+    if (models.empty()) throw Error(fmt::format("{}: none of the checkpoint's models can stand in it", grammar));
+    scene_.start.derivation = temporary.file("population" + std::string(kManyDerivations));
+    write_file(scene_.start.derivation, models);
+    executor_ = make_tbb_executor(scene_.threads);
+    const std::unique_ptr<Setup> setup = set_up(scene_, source_);
+    setup->warnings.push_back(fmt::format("this is a new search, from step 1 on, that begins with {} models of {} (step "
+                                          "{}). What has changed:{}", setup->founders.size(), point_.folder,
+                                          point_.checkpoint.step, changes));
+    RunFolder folder(path_, kRunMarker);
+    SearchSession session(*setup, *executor_);
+    return do_run({*setup, folder, *executor_, session, observer_of(options_), options_.stop});
+  }
+
+  RunObserver& observer_of(const RunOptions& options) { return options.observer ? *options.observer : silent_; }
+
+  const ResumeRequest& request_;
+  const RunOptions& options_;
+  MeshSource& source_;
+  ResumePoint point_;
+  std::string path_;
+  Scene scene_;
+  std::unique_ptr<Executor> executor_;
+  RunObserver silent_;
+};
+
+}  // namespace
+
+bool resume_run(const ResumeRequest& request, const RunOptions& options, MeshSource& source) {
+  return Resumption(request, options, source).run();
+}
+
+}  // namespace espalier
