@@ -66,9 +66,8 @@ void print_marks(const Contest& contest, const CompareResult& result) {
 void print_words(const Contest& contest, const CompareResult& result) {
   fmt::print("\n");
   for (const CompareMark& mark : result.summary.marks) {
-    const std::string as_good = as_good_in_words(contest, mark);
     fmt::print("after {}: {}{}\n", spent_text(result.summary.effort, mark.at), contest.variants[mark.ranking[0]].name,
-               as_good.empty() ? "" : fmt::format("; not told apart from it (p > 0.05): {}", as_good));
+               told_apart_in_words(contest, mark));
   }
   const std::size_t seeds = result.summary.counted.size();
   fmt::print("p: rank test against the first; with {} seed{} it cannot be below {}\n", seeds, seeds == 1 ? "" : "s",

@@ -48,7 +48,7 @@ std::string compare_reach_csv(const Contest& contest, const CompareResult& resul
 std::string compare_searches_csv(const Contest& contest, const CompareResult& result);
 std::string compare_json(const Contest& contest, const CompareResult& result);
 
-/// "smc and ga are not told apart from it (p > 0.05)": who may be as good as the best of a mark; empty: nobody.
-std::string as_good_in_words(const Contest& contest, const CompareMark& mark);
+/// What follows the name of the first at a mark: "; not told apart from it: smc, ga", or ", apart from all others".
+std::string told_apart_in_words(const Contest& contest, const CompareMark& mark);
 
 }  // namespace espalier

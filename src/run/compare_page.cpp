@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/counted.h"
 #include "base/version.h"
@@ -19,18 +17,11 @@ namespace espalier {
 namespace {
 
 constexpr std::uint32_t kMostAcross = 800;
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-std::string names_of(const Contest& contest) {
+std::vector<std::string> names_in(const Contest& contest) {
   std::vector<std::string> names;
   for (const ContestVariant& variant : contest.variants) names.push_back(variant.name);
-  return escape_html(listed_names(names));
-}
-
-std::string kind_of(std::size_t variant) { return fmt::format("s{}", variant); }
-
-std::string swatch(std::size_t variant) {
-  return fmt::format("<i class=\"swatch {}\"></i>", kind_of(variant));
+  return names;
 }
 
 std::string chance_html(const CompareMark& mark, std::size_t v) {
@@ -39,12 +30,9 @@ std::string chance_html(const CompareMark& mark, std::size_t v) {
 
 std::string words(const Contest& contest, const CompareResult& result) {
   const CompareMark& last = result.summary.marks.back();
-  const std::string as_good = as_good_in_words(contest, last);
-  std::string text = fmt::format("After {}, {} is ahead", in_words(result.summary.effort, last.at),
-                                 escape_html(contest.variants[last.ranking[0]].name));
-  if (contest.variants.size() > 1)
-    text += as_good.empty() ? " of all others (p &le; 0.05)" : fmt::format("; not told apart from it: {}", escape_html(as_good));
-  return text + ".";
+  return fmt::format("After {}, {} is ahead{}.", in_words(result.summary.effort, last.at),
+                     escape_html(contest.variants[last.ranking[0]].name),
+                     escape_html(told_apart_in_words(contest, last)));
 }
 
 std::string headline(const Contest& contest, const CompareResult& result) {
@@ -63,26 +51,16 @@ std::string search_line(const Contest& contest, const CompareResult& result) {
   return text;
 }
 
-std::string legend(const Contest& contest) {
-  std::string html;
-  for (std::size_t v = 0; v < contest.variants.size(); ++v) {
-    html += fmt::format("<button type=\"button\" class=\"{}\" aria-pressed=\"true\">{}{}</button>", kind_of(v),
-                        swatch(v), escape_html(contest.variants[v].name));
-  }
-  return html;
-}
-
 std::string mark_rows(const Contest& contest, const CompareResult& result, const CompareMark& mark) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const SampleSummary& s : mark.scores) {
     if (std::isfinite(s.min)) low = std::min(low, s.min);
     if (std::isfinite(s.max)) high = std::max(high, s.max);
   }
-  const std::string as_good = as_good_in_words(contest, mark);
-  std::string html = fmt::format("<tr class=\"mark\"><th colspan=\"8\" scope=\"rowgroup\"><b>after {}</b>{}</th></tr>\n",
-                                 in_words(result.summary.effort, mark.at),
-                                 as_good.empty() ? "" : fmt::format("not told apart from the first: {}",
-                                                                    escape_html(as_good)));
+  std::string html = fmt::format(
+      "<tr class=\"mark\"><th colspan=\"8\" scope=\"rowgroup\"><span><b>after {}</b> {}{}</span></th></tr>\n",
+      in_words(result.summary.effort, mark.at), escape_html(contest.variants[mark.ranking[0]].name),
+      escape_html(told_apart_in_words(contest, mark)));
   for (const std::size_t v : mark.ranking) {
     const SampleSummary& s = mark.scores[v];
     const auto cell = [&](double value) { return "<td>" + score_html(value, result.optimum) + "</td>"; };
@@ -159,7 +137,7 @@ std::string work_html(const Contest& contest, const CompareResult& result) {
       seconds.push_back(outcome->seconds);
     }
     if (evaluations.empty()) continue;
-    html += fmt::format("<tr><th scope=\"row\">{}{}</th><td>{}</td><td>{}</td><td>{}</td><td>{:.3g}</td></tr>\n",
+    html += fmt::format("<tr><th scope=\"row\">{}{}</th><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}</td></tr>\n",
                         swatch(v), escape_html(contest.variants[v].name),
                         readable_number(std::round(result.summary.evaluations_per_second[v])),
                         readable_number(summarise(evaluations).median), readable_number(summarise(steps).median),
@@ -187,6 +165,9 @@ std::string pictures_html(const Contest& contest, const CompareResult& result, c
   return html;
 }
 
+/// Of the pictures on a wide screen: rows as full as can be.
+std::size_t columns_of(std::size_t pictures) { return pictures <= 5 ? pictures : (pictures + 1) / 2; }
+
 std::string commands(const Contest& contest, const CompareResult& result) {
   std::string text;
   for (std::size_t v = 0; v < contest.variants.size(); ++v) {
@@ -199,38 +180,11 @@ std::string commands(const Contest& contest, const CompareResult& result) {
   return text;
 }
 
-std::string curve_json(const CompareCurve& curve) {
-  std::vector<double> mean, deviation, median, lower, upper;
-  for (const std::optional<SampleSummary>& point : curve.points) {
-    const bool there = point.has_value();
-    mean.push_back(there ? point->mean : kNothing), deviation.push_back(there ? point->deviation : kNothing);
-    median.push_back(there ? point->median : kNothing);
-    lower.push_back(there ? point->lower : kNothing), upper.push_back(there ? point->upper : kNothing);
-  }
-  std::string searches;
-  for (const auto& search : curve.searches) {
-    std::vector<double> values;
-    for (const std::optional<double>& value : search) values.push_back(value.value_or(kNothing));
-    searches += (searches.empty() ? "" : ",\n") + json_numbers(values);
-  }
-  return fmt::format("{{\"mean\":{},\n\"deviation\":{},\n\"median\":{},\n\"lower\":{},\n\"upper\":{},\n\"searches\":[{}]}}",
-                     json_numbers(mean), json_numbers(deviation), json_numbers(median), json_numbers(lower),
-                     json_numbers(upper), searches);
-}
-
 std::string data_json(const Contest& contest, const CompareResult& result) {
-  nlohmann::ordered_json names = nlohmann::ordered_json::array();
-  for (const ContestVariant& variant : contest.variants) names.push_back(variant.name);
-  std::string axes;
-  for (const CompareAxis& axis : result.summary.axes) {
-    std::string curves;
-    for (const CompareCurve& curve : axis.curves) curves += (curves.empty() ? "" : ",\n") + curve_json(curve);
-    axes += fmt::format("{}{{\"name\":\"{}\",\n\"at\":{},\n\"curves\":[{}]}}", axes.empty() ? "" : ",\n",
-                        name_of(axis.effort), json_numbers(axis.at), curves);
-  }
-  return json_for_script(fmt::format("{{\"optimum\":{},\n\"names\":{},\n\"axes\":[{}]}}",
-                                     json_numbers({result.optimum}).substr(1, json_numbers({result.optimum}).size() - 2),
-                                     names.dump(-1, ' ', true), axes));
+  std::vector<std::string> axes;
+  for (const CompareAxis& axis : result.summary.axes)
+    axes.push_back(axis_json(std::string(name_of(axis.effort)), axis.at, axis.curves));
+  return chart_json(result.optimum, names_in(contest), axes);
 }
 
 }  // namespace
@@ -241,19 +195,20 @@ std::string compare_page(const Contest& contest, const CompareResult& result, co
     settings += settings_box(contest.variants[v], parts.settings[v]);
   return fill_template(kCompareHtml,
                        {{"css", std::string(kReportCss) + std::string(kContestCss)},
-                        {"js", std::string(kCompareJs)},
+                        {"js", std::string(kContestJs)},
                         {"version", kVersion},
                         {"grammar", escape_html(result.grammar)},
-                        {"names", names_of(contest)},
+                        {"names", escape_html(listed_names(names_in(contest)))},
                         {"headline", headline(contest, result)},
                         {"words", words(contest, result)},
                         {"search", search_line(contest, result)},
                         {"warnings", warning_list(result.warnings)},
-                        {"legend", legend(contest)},
+                        {"legend", legend(names_in(contest))},
                         {"marks", marks_html(contest, result)},
                         {"reach", reach_html(contest, result)},
                         {"work", work_html(contest, result)},
                         {"pictures", pictures_html(contest, result, parts)},
+                        {"columns", fmt::format("{}", columns_of(contest.variants.size()))},
                         {"settings", settings},
                         {"commands", escape_html(commands(contest, result))},
                         {"command", escape_html(parts.command)},

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "base/version.h"
 #include "run/report_text.h"
@@ -26,6 +28,36 @@ std::string engine_settings(EngineKind engine, const std::string& settings) {
     if (!text.ends_with('\n')) text += '\n';
   }
   return text;
+}
+
+/// Numbers for script: null for what is not finite.
+std::string numbers_json(const std::vector<double>& values) {
+  std::string text = "[";
+  for (const double value : values) {
+    if (text.size() > 1) text += ',';
+    text += std::isfinite(value) ? fmt::format("{:.7g}", value) : "null";
+  }
+  return text + "]";
+}
+
+std::string curve_json(const CompareCurve& curve) {
+  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  const auto member = [&](const char* name, double (*value)(const SampleSummary&)) {
+    std::vector<double> values;
+    for (const std::optional<SampleSummary>& point : curve.points) values.push_back(point ? value(*point) : kNothing);
+    return fmt::format("\"{}\":{},\n", name, numbers_json(values));
+  };
+  std::string searches;
+  for (const auto& search : curve.searches) {
+    std::vector<double> values;
+    for (const std::optional<double>& value : search) values.push_back(value.value_or(kNothing));
+    searches += (searches.empty() ? "" : ",\n") + numbers_json(values);
+  }
+  return "{" + member("mean", [](const SampleSummary& s) { return s.mean; }) +
+         member("deviation", [](const SampleSummary& s) { return s.deviation; }) +
+         member("median", [](const SampleSummary& s) { return s.median; }) +
+         member("lower", [](const SampleSummary& s) { return s.lower; }) +
+         member("upper", [](const SampleSummary& s) { return s.upper; }) + fmt::format("\"searches\":[{}]}}", searches);
 }
 
 }  // namespace
@@ -82,13 +114,28 @@ std::string settings_box(const ContestVariant& variant, const std::string& setti
                      escape_html(engine_settings(variant.scene.search.engine, settings)));
 }
 
-std::string json_numbers(const std::vector<double>& values) {
-  std::string text = "[";
-  for (const double value : values) {
-    if (text.size() > 1) text += ',';
-    text += std::isfinite(value) ? fmt::format("{:.7g}", value) : "null";
+std::string kind_of(std::size_t variant) { return fmt::format("s{}", variant % 8); }
+
+std::string swatch(std::size_t variant) { return fmt::format("<i class=\"swatch {}\"></i>", kind_of(variant)); }
+
+std::string legend(const std::vector<std::string>& names) {
+  std::string html;
+  for (std::size_t v = 0; v < names.size(); ++v) {
+    html += fmt::format("<button type=\"button\" class=\"{}\" aria-pressed=\"true\">{}{}</button>", kind_of(v),
+                        swatch(v), escape_html(names[v]));
   }
-  return text + "]";
+  return html;
+}
+
+std::string axis_json(const std::string& name, const std::vector<double>& at, const std::vector<CompareCurve>& curves) {
+  std::string text;
+  for (const CompareCurve& curve : curves) text += (text.empty() ? "" : ",\n") + curve_json(curve);
+  return fmt::format("{{\"name\":\"{}\",\n\"at\":{},\n\"curves\":[{}]}}", name, numbers_json(at), text);
+}
+
+std::string chart_json(double optimum, const std::vector<std::string>& names, const std::vector<std::string>& axes) {
+  return json_for_script(fmt::format("{{\"optimum\":{:.9g},\n\"names\":{},\n\"axes\":[{}]}}", optimum,
+                                     nlohmann::ordered_json(names).dump(-1, ' ', true), fmt::join(axes, ",\n")));
 }
 
 std::string listed_names(const std::vector<std::string>& names) {

@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "run/contest.h"
-#include "run/statistics.h"
+#include "run/compare_summary.h"
 
 namespace espalier {
 
@@ -24,8 +23,15 @@ std::string contest_provenance(const Contest& contest, const InputFiles& inputs)
 /// A closed box: what a variant sets, and inside it the settings of its engine, out of a whole settings file.
 std::string settings_box(const ContestVariant& variant, const std::string& settings);
 
-/// Numbers of a curve for script: null where there is none.
-std::string json_numbers(const std::vector<double>& values);
+/// The class of a variant's colour; eight there are.
+std::string kind_of(std::size_t variant);
+std::string swatch(std::size_t variant);
+/// Buttons that show and hide.
+std::string legend(const std::vector<std::string>& names);
+
+/// What chart.js draws: an axis with a curve per variant, and the whole of them, safe inside <script>.
+std::string axis_json(const std::string& name, const std::vector<double>& at, const std::vector<CompareCurve>& curves);
+std::string chart_json(double optimum, const std::vector<std::string>& names, const std::vector<std::string>& axes);
 
 /// "ga, smc and rjmcmc".
 std::string listed_names(const std::vector<std::string>& names);

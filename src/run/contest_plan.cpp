@@ -47,10 +47,7 @@ void check_name(const std::string& name) {
 void check_names(const std::vector<VariantWords>& variants) {
   std::set<std::string> names;
   for (const VariantWords& variant : variants) {
-    std::string folded = variant.name;  // there are file systems that take A for a
-    std::transform(folded.begin(), folded.end(), folded.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    if (!names.insert(folded).second) {
+    if (!names.insert(variant.name).second) {
       throw Error(fmt::format("two variants are called {}; --variant \"NAME: ...\" gives names", variant.name));
     }
   }

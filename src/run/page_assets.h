@@ -7,6 +7,6 @@ namespace espalier {
 
 extern const std::string_view kCompareHtml, kSweepHtml;  // with places "{{name}}" to fill
 extern const std::string_view kContestCss;               // after that of reports
-extern const std::string_view kCompareJs, kSweepJs;
+extern const std::string_view kContestJs;
 
 }  // namespace espalier

@@ -78,7 +78,7 @@ class Chart {
     if (!highs.length) return [0, 1];
     let low = Math.min(...lows), high = Math.max(...highs);
     const optimum = page.data.optimum;
-    if (optimum > 0 && high > 0.75 * optimum) high = Math.max(high, Math.min(optimum, high + 0.4 * (high - low)));
+    if (optimum > 0 && high > 0.9 * optimum) high = Math.max(high, optimum);
     if (optimum > 0) high = Math.min(high, optimum);
     if (low < -0.5 * Math.abs(high)) low = -0.5 * Math.abs(high);  // first models may be far below all that matters
     const room = (high - low || Math.abs(high) || 1) * 0.04;
@@ -103,7 +103,7 @@ class Chart {
     this.drawAxes(x, y, low, high, first, last, edge, width, height, log);
     for (const one of shown) this.drawCurve(one, x, y);
     this.drawNames(shown, names, x, y, edge, floor);
-    this.choose(this.chosen < 0 ? axis.at.length - 1 : this.chosen);
+    this.choose(this.chosen < 0 ? this.lastOfAll(shown) : this.chosen);
   }
 
   drawAxes(x, y, low, high, first, last, edge, width, height, log) {
@@ -201,6 +201,13 @@ class Chart {
       say(page.data.names[which] + " " + page.score(middle) + around, "s" + which);
     }
     if (!rows.length) say("no score of all seeds yet");
+  }
+
+  // The last point at which all that are shown have a value.
+  lastOfAll(shown) {
+    let i = this.axis.at.length - 1;
+    while (i > 0 && shown.some(({lines}) => lines.middle[i] === null)) --i;
+    return i;
   }
 
   chooseAt(clientX) {
