@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "cmd/declare.h"
 #include "cmd/verbs.h"
 
 namespace espalier {
@@ -22,6 +23,8 @@ constexpr const char* kExamples = R"(Examples:
   espalier run scenes/spaceship.toml --checkpoint-every 10 --out out/ship
   espalier run --resume out/ship --time 60
   espalier run scenes/spaceship.toml --from out/ship --lock Ship/Body/Body
+  espalier compare scenes/spaceship.toml --engines ga,rjmcmc,hybrid --seeds 5 --time 10
+  espalier sweep scenes/spaceship.toml --vary search.population=20,100,500 --time 5
   espalier preview scenes/tree-heart.toml -o preview.png
   espalier score out/ship/run.toml out/ship/best.derivation.json
   espalier inspect out/ship/best.png
@@ -40,6 +43,8 @@ struct CommandLine {
   ImportOptions import_;
   SampleOptions sample;
   RunVerbOptions run;
+  CompareOptions compare;
+  SweepOptions sweep;
   PreviewOptions preview;
   ScoreOptions score;
   InspectOptions inspect;
@@ -50,21 +55,6 @@ struct CommandLine {
   ExplainOptions explain;
   std::function<int()> verb;
 };
-
-void declare_attributes(CLI::App* verb, std::vector<std::string>& attributes) {
-  verb->add_option("-D", attributes, "Set an attribute of the grammar: -D name=value (repeatable)")->expected(1)
-      ->take_all();
-}
-
-void declare_settings(CLI::App* verb, std::vector<std::string>& settings) {
-  verb->add_option("--set", settings, "Change a setting of the scene: --set volume.cells=500000 (repeatable)")
-      ->expected(1)->take_all();
-}
-
-void declare_threads(CLI::App* verb, int& threads) {
-  verb->add_option("--threads", threads, "Threads to use; 0 = one per core. Results do not depend on it")
-      ->check(CLI::Range(0, 1024));
-}
 
 void declare_check(CLI::App& app, CommandLine& line) {
   CLI::App* verb = app.add_subcommand("check", "Say what is wrong with a grammar");
@@ -252,6 +242,8 @@ int main_verb(int argc, char** argv) {
   declare_import(app, line);
   declare_sample(app, line);
   declare_run(app, line);
+  declare_compare(app, line.compare, line.verb);
+  declare_sweep(app, line.sweep, line.verb);
   declare_preview(app, line);
   declare_score(app, line);
   declare_file_verbs(app, line);

@@ -56,6 +56,32 @@ struct RunVerbOptions {
   bool json = false;
 };
 
+/// What compare and sweep share.
+struct ContestOptions {
+  std::string scene;
+  std::string seeds = "5";
+  std::optional<std::uint64_t> seed;
+  std::optional<double> seconds;
+  std::optional<std::uint64_t> evaluations, generations;
+  std::vector<std::string> settings, attributes;
+  int threads = 0;
+  std::string out;
+  bool json = false;
+};
+
+struct CompareOptions : ContestOptions {
+  std::string engines;                // empty: all, unless there are variants
+  std::vector<std::string> variants;  // "NAME: KEY=VALUE, ..."
+  std::string marks;
+};
+
+struct SweepOptions : ContestOptions {
+  std::vector<std::string> varied;  // "KEY=VALUE,VALUE"
+  std::optional<std::string> engine;
+  std::optional<std::uint32_t> random;
+  bool curves = false;
+};
+
 struct PreviewOptions {
   std::string scene;
   std::optional<std::uint64_t> seed;

@@ -15,6 +15,8 @@ int format_verb(const FormatOptions& options);
 int import_verb(const ImportOptions& options);
 int sample_verb(const SampleOptions& options);
 int run_verb(const RunVerbOptions& options);
+int compare_verb(const CompareOptions& options);
+int sweep_verb(const SweepOptions& options);
 int preview_verb(const PreviewOptions& options);
 int score_verb(const ScoreOptions& options);
 int inspect_verb(const InspectOptions& options);

@@ -1,0 +1,66 @@
+#include "cmd/declare.h"
+
+#include <CLI/CLI.hpp>
+
+#include "cmd/verbs.h"
+
+namespace espalier {
+namespace {
+
+/// What compare and sweep share.
+void declare_contest(CLI::App* verb, ContestOptions& o) {
+  verb->add_option("scene", o.scene, "Scene file (.toml)")->required();
+  verb->add_option("--seeds", o.seeds, "How many, from the scene's on (" + o.seeds + "); or which: 3,7,9");
+  verb->add_option("--seed", o.seed, "The first of them")->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
+  verb->add_option("--time", o.seconds, "Seconds for each search (replaces the scene's budget)");
+  verb->add_option("--evaluations", o.evaluations, "Evaluations for each search (replaces the scene's budget)");
+  declare_threads(verb, o.threads);
+  declare_settings(verb, o.settings);
+  declare_attributes(verb, o.attributes);
+  verb->add_flag("--json", o.json, "Events as JSON lines");
+}
+
+}  // namespace
+
+void declare_attributes(CLI::App* verb, std::vector<std::string>& attributes) {
+  verb->add_option("-D", attributes, "Set an attribute of the grammar: -D name=value (repeatable)")->expected(1)
+      ->take_all();
+}
+
+void declare_settings(CLI::App* verb, std::vector<std::string>& settings) {
+  verb->add_option("--set", settings, "Change a setting of the scene: --set volume.cells=500000 (repeatable)")
+      ->expected(1)->take_all();
+}
+
+void declare_threads(CLI::App* verb, int& threads) {
+  verb->add_option("--threads", threads, "Threads to use; 0 = one per core. Results do not depend on it")
+      ->check(CLI::Range(0, 1024));
+}
+
+void declare_compare(CLI::App& app, CompareOptions& o, std::function<int()>& chosen) {
+  CLI::App* verb = app.add_subcommand("compare", "Search a scene with several engines or settings, side by side");
+  declare_contest(verb, o);
+  verb->add_option("--engines", o.engines, "Engines, with commas between (all)");
+  verb->add_option("--variant", o.variants,
+                   "Another that takes part: --variant \"NAME: engine=ga, search.preset=ga-2017\" (repeatable)")
+      ->expected(1)->take_all();
+  verb->add_option("--marks", o.marks, "Seconds, or evaluations, at which scores are told: 1,5,30 (a few)");
+  verb->add_option("--out", o.out, "Folder to write (out/NAME-compare); an earlier comparison there is replaced");
+  verb->callback([&o, &chosen] { chosen = [&o] { return compare_verb(o); }; });
+}
+
+void declare_sweep(CLI::App& app, SweepOptions& o, std::function<int()>& chosen) {
+  CLI::App* verb = app.add_subcommand("sweep", "Search a scene with every combination of some settings");
+  o.seeds = "3";
+  declare_contest(verb, o);
+  verb->add_option("--vary", o.varied, "A setting and its values: --vary search.population=10,50,200 (repeatable)")
+      ->expected(1)->take_all()->required();
+  verb->add_option("--engine", o.engine, "How to search: ga, smc, sosmc, rjmcmc or hybrid (the scene's)");
+  verb->add_option("--generations", o.generations, "Steps for each search (replaces the scene's budget)");
+  verb->add_option("--random", o.random, "Only so many of the combinations, drawn by the seed")->check(CLI::Range(1, 1000));
+  verb->add_flag("--curves", o.curves, "Write curves.csv: best and mean of the population, step by step");
+  verb->add_option("--out", o.out, "Folder to write (out/NAME-sweep); an earlier sweep there is replaced");
+  verb->callback([&o, &chosen] { chosen = [&o] { return sweep_verb(o); }; });
+}
+
+}  // namespace espalier

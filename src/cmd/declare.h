@@ -1,0 +1,24 @@
+#pragma once
+// Options that several verbs have, and the verbs of contests, declared for the parser.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cmd/options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace espalier {
+
+void declare_attributes(CLI::App* verb, std::vector<std::string>& attributes);
+void declare_settings(CLI::App* verb, std::vector<std::string>& settings);
+void declare_threads(CLI::App* verb, int& threads);
+
+/// `chosen` becomes the call of the verb when it is asked for. All must outlive the parsing.
+void declare_compare(CLI::App& app, CompareOptions& options, std::function<int()>& chosen);
+void declare_sweep(CLI::App& app, SweepOptions& options, std::function<int()>& chosen);
+
+}  // namespace espalier
