@@ -45,6 +45,7 @@ void read_ga(TomlSection& s, GaSettings& ga) {
   take(ga.restart_after, s.whole("restart_after", 0, 1'000'000'000));
   take(ga.unique, s.boolean("unique"));
   take(ga.join, s.boolean("join"));
+  take(ga.adapt, s.boolean("adapt"));
 }
 
 /// A table that settings of an engine come from; later ones win.
@@ -188,9 +189,9 @@ std::string search_to_toml(const SceneSearch& search) {
   text += fmt::format("first = \"{}\"\nsecond = \"{}\"\ntournament_size = {}\n", word_for(kSelectionSchemes, ga.first),
                       word_for(kSelectionSchemes, ga.second), ga.tournament_size);
   text += fmt::format("crossover = \"{}\"\nretries = {}\nreplace_probability = {}\nreuse_scores = {}\n"
-                      "unique = {}\njoin = {}\nrestart_after = {}\n",
+                      "unique = {}\njoin = {}\nadapt = {}\nrestart_after = {}\n",
                       word_for(kCompatibilities, ga.crossover), ga.retries, format_toml(ga.replace_probability),
-                      ga.reuse_scores, ga.unique, ga.join, ga.restart_after);
+                      ga.reuse_scores, ga.unique, ga.join, ga.adapt, ga.restart_after);
   return text + fmt::format("\n[engine.smc]\n{}\n[engine.sosmc]\n{}\n[engine.rjmcmc]\n{}\n[engine.hybrid]\n{}",
                             to_toml(search.smc), to_toml(search.sosmc), to_toml(search.rjmcmc), to_toml(search.hybrid));
 }

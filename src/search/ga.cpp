@@ -32,6 +32,7 @@ void GaEngine::step() {
     scored_.assign(settings_.population, 0);
     parents_.assign(settings_.population, Child::kNone);
     kinds_.resize(settings_.population);
+    if (settings_.adapt) variation_.set_rates(adapted(rates_of(settings_), gains_));
     gains_.begin_generation();
     make_next_generation();
     score_newcomers();

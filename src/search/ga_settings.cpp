@@ -82,11 +82,11 @@ void validate(const GaSettings& s) {
 
 std::string to_text(const GaSettings& s) {
   return fmt::format("P {} E {} L {}..{} mutation {} {} {} {} nudge {} select {} {} {} cross {} {} {} genes {}..{} "
-                     "reuse {} unique {} join {} restart {}",
+                     "reuse {} unique {} join {} adapt {} restart {}",
                      s.population, s.elitism, s.initial_length_min, s.initial_length_max, s.mutation, s.grow, s.cut,
                      s.alter, s.nudge, name_of(s.first), name_of(s.second), s.tournament_size,
                      static_cast<int>(s.crossover), s.retries, s.replace_probability, s.genes.min, s.genes.max,
-                     s.reuse_scores, s.unique, s.join, s.restart_after);
+                     s.reuse_scores, s.unique, s.join, s.adapt, s.restart_after);
 }
 
 std::span<const GaPreset> ga_presets() { return kPresets; }

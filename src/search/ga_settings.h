@@ -30,6 +30,7 @@ struct GaSettings {
   bool reuse_scores = false;               // a child equal to a parent generation's member gets its score unscored
   std::uint32_t restart_after = 0;         // generations without a better individual before a new population; 0 = never
   bool unique = false;                     // a child equal to a member of its own generation is redrawn
+  bool adapt = false;                      // the chances of crossover and of mutations follow what each gained lately
   bool join = false;                       // what several children of one parent gained is joined in one more child
 
   bool operator==(const GaSettings&) const = default;

@@ -1,5 +1,7 @@
 #include "search/ga_variation.h"
 
+#include <algorithm>
+
 #include "base/check.h"
 #include "derivation/moves.h"
 #include "derivation/nudge.h"
@@ -56,7 +58,7 @@ GaCounts counts_from(const std::vector<std::uint64_t>& values) {
 
 void GaVariation::vary(const Individual& parent1, const Individual& parent2, RandomStream& random, Child& child1,
                        Child& child2, GaCounts& counts) const {
-  if (random.chance(settings_.mutation)) {
+  if (random.chance(mutation_)) {
     mutate(parent1, random, child1, counts);
     mutate(parent2, random, child2, counts);
     return;
@@ -73,6 +75,11 @@ void GaVariation::vary(const Individual& parent1, const Individual& parent2, Ran
   child2.individual.score = parent2.score;
   child1.scored = child2.scored = !result.crossed;
   child1.kind = child2.kind = Kind::crossover;
+}
+
+void GaVariation::set_rates(const VariationRates& rates) {
+  mutation_ = 1 - rates.of(VariationKind::crossover);
+  std::copy_n(rates.chance.begin(), shares_.size(), shares_.begin());
 }
 
 void GaVariation::mutate(const Individual& parent, RandomStream& random, Child& child, GaCounts& counts) const {
@@ -93,7 +100,7 @@ void GaVariation::mutate(const Individual& parent, RandomStream& random, Child& 
 }
 
 VariationKind GaVariation::draw_kind(RandomStream& random) const {
-  double ball = random.next_unit() * (settings_.grow + settings_.cut + settings_.alter + settings_.nudge);
+  double ball = random.next_unit() * (shares_[0] + shares_[1] + shares_[2] + shares_[3]);
   Kind last = Kind::grow;
   for (const Kind kind : kMutations) {
     if (!(share(kind) > 0)) continue;
@@ -102,17 +109,6 @@ VariationKind GaVariation::draw_kind(RandomStream& random) const {
     last = kind;
   }
   return last;  // rounding carried the ball past the wheel's end
-}
-
-double GaVariation::share(Kind kind) const {
-  switch (kind) {
-    case Kind::grow: return settings_.grow;
-    case Kind::cut: return settings_.cut;
-    case Kind::alter: return settings_.alter;
-    case Kind::nudge: return settings_.nudge;
-    case Kind::crossover: break;
-  }
-  CHECK(false);
 }
 
 bool GaVariation::apply(Kind kind, Derivation& derivation, RandomStream& random, GaCounts& counts) const {

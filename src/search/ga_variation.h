@@ -7,6 +7,7 @@
 
 #include "derivation/locks.h"
 #include "search/engine.h"
+#include "search/ga_rates.h"
 #include "search/ga_settings.h"
 #include "search/variation_kind.h"
 
@@ -54,21 +55,29 @@ class GaVariation {
  public:
   /// All three must outlive it.
   GaVariation(const GeneratorGraph& graph, const Locks& locks, const GaSettings& settings)
-      : graph_(graph), locks_(locks), settings_(settings) {}
+      : graph_(graph),
+        locks_(locks),
+        settings_(settings),
+        mutation_(settings.mutation),
+        shares_{settings.grow, settings.cut, settings.alter, settings.nudge} {}
 
   /// Overwrites both children. They may lie outside the gene limits. Reuses the children's storage.
   void vary(const Individual& parent1, const Individual& parent2, RandomStream& random, Child& child1, Child& child2,
             GaCounts& counts) const;
+  /// From now on children are made at these rates.
+  void set_rates(const VariationRates& rates);
 
  private:
   void mutate(const Individual& parent, RandomStream& random, Child& child, GaCounts& counts) const;
   VariationKind draw_kind(RandomStream& random) const;
-  double share(VariationKind kind) const;
+  double share(VariationKind kind) const { return shares_[static_cast<std::size_t>(kind)]; }
   bool apply(VariationKind kind, Derivation& derivation, RandomStream& random, GaCounts& counts) const;
 
   const GeneratorGraph& graph_;
   const Locks& locks_;
   const GaSettings& settings_;
+  double mutation_;                   // chance that a pair is mutated
+  std::array<double, 4> shares_;      // of grow, cut, alter and nudge among mutations; only ratios matter
 };
 
 }  // namespace espalier

@@ -104,6 +104,41 @@ TEST(Smc, EveryResamplingSchemeIsUnbiased) {
   }
 }
 
+TEST(Smc, EveryResamplingSchemeIsUnbiasedInOrderToo) {
+  for (const Resampling scheme : {Resampling::systematic, Resampling::stratified, Resampling::multinomial,
+                                  Resampling::residual}) {
+    SmcSettings settings = small_settings(SlotOrder::depth_first);
+    settings.resampling = scheme;
+    settings.particles = 20;
+    settings.resample_below = scheme == Resampling::residual ? 0.8 : 1;
+    EXPECT_LT(worst_deviation(settings, 0, 1), kBound) << name_of(scheme);
+  }
+}
+
+// Sweeps of every size of a schedule estimate the same evidence.
+TEST(Smc, SchedulesDoNotBiasTheEvidence) {
+  SmcSettings settings = small_settings();
+  settings.particles = 5;
+  settings.schedule = 1.7;
+  settings.most_particles = 40;
+  const auto graph = tiny_graph();
+  double truth = 0;
+  for (const auto& [key, density] : testing::tiny_posterior(*graph, 1, settings.genes.max)) truth += density;
+  for (const double off : {0.0, 0.04}) {  // the test can fail: another evidence is told apart
+    std::vector<testing::Deviation> of_sweep(6, testing::Deviation({{"all", truth * (1 + off)}}));
+    for (std::uint64_t seed = 0; seed < 1500; ++seed) {
+      TinyBench bench(settings, 0, seed);
+      for (testing::Deviation& deviation : of_sweep) {
+        bench.run_sweep();
+        deviation.add({{"all", std::exp(bench.engine.log_evidence())}});
+      }
+    }
+    double worst = 0;
+    for (testing::Deviation& deviation : of_sweep) worst = std::max(worst, deviation.worst(0));
+    EXPECT_EQ(worst > kBound, off > 0) << worst;
+  }
+}
+
 TEST(Smc, NeverResamplingIsImportanceSampling) {
   SmcSettings settings = small_settings();
   settings.resample_below = 0;
