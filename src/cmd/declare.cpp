@@ -57,7 +57,8 @@ void declare_sweep(CLI::App& app, SweepOptions& o, std::function<int()>& chosen)
       ->expected(1)->take_all()->required();
   verb->add_option("--engine", o.engine, "How to search: ga, smc, sosmc, rjmcmc or hybrid (the scene's)");
   verb->add_option("--generations", o.generations, "Steps for each search (replaces the scene's budget)");
-  verb->add_option("--random", o.random, "Only so many of the combinations, drawn by the seed")->check(CLI::Range(1, 1000));
+  verb->add_option("--random", o.random, "Only so many of the combinations, drawn by the seed")
+      ->check(CLI::Range(1, 1000));
   verb->add_flag("--curves", o.curves, "Write curves.csv: best and mean of the population, step by step");
   verb->add_option("--out", o.out, "Folder to write (out/NAME-sweep); an earlier sweep there is replaced");
   verb->callback([&o, &chosen] { chosen = [&o] { return sweep_verb(o); }; });

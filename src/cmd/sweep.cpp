@@ -111,8 +111,9 @@ int sweep_verb(const SweepOptions& options) {
   }
   print_table(request, *result);
   print_effects(request, *result);
+  fmt::print("\n");
   for (const char* name : {"sweep.html", "sweep.csv", "best.toml"})
-    fmt::print("{}wrote {}\n", name == std::string("sweep.html") ? "\n" : "", (fs::path(result->folder) / name).string());
+    fmt::print("wrote {}\n", (fs::path(result->folder) / name).string());
   return kDone;
 }
 

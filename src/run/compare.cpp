@@ -138,7 +138,8 @@ std::string told_apart_in_words(const Contest& contest, const CompareMark& mark)
   if (mark.ranking.size() < 2) return "";
   const std::size_t seeds = mark.scores[0].count;
   if (least_rank_test(seeds, seeds) > kLikely)
-    return fmt::format("; {} too few to tell it from chance", seeds == 1 ? "one seed is" : fmt::format("{} seeds are", seeds));
+    return fmt::format("; {} too few to tell it from chance",
+                       seeds == 1 ? "one seed is" : fmt::format("{} seeds are", seeds));
   std::vector<std::string> names;
   for (const std::size_t v : mark.ranking) {
     if (v != mark.ranking[0] && mark.chance[v] > kLikely) names.push_back(contest.variants[v].name);

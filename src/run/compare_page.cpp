@@ -47,7 +47,8 @@ std::string search_line(const Contest& contest, const CompareResult& result) {
                                  in_words(contest.budget),
                                  counted(static_cast<std::size_t>(result.threads), "thread"));
   if (result.summary.partial) text += "; stopped by hand before any seed was done";
-  else if (result.interrupted) text += fmt::format("; stopped by hand, {} planned", counted(contest.seeds.size(), "seed"));
+  else if (result.interrupted)
+    text += fmt::format("; stopped by hand, {} planned", counted(contest.seeds.size(), "seed"));
   return text;
 }
 
@@ -68,7 +69,8 @@ std::string mark_rows(const Contest& contest, const CompareResult& result, const
                         escape_html(contest.variants[v].name));
     html += cell(s.median);
     html += std::isfinite(s.mean) ? fmt::format("<td class=\"plain\">{} &plusmn; {}</td>",
-                                                score_html(s.mean, result.optimum), score_html(s.deviation, result.optimum))
+                                                score_html(s.mean, result.optimum),
+                                                score_html(s.deviation, result.optimum))
                                   : "<td>&ndash;</td>";
     for (const double value : {s.iqr(), s.min, s.max}) {
       html += "<td class=\"plain\">" + score_html(value, result.optimum) + "</td>";
@@ -97,7 +99,8 @@ std::string marks_html(const Contest& contest, const CompareResult& result) {
 
 std::string reach_cell(const CompareReach& reach, Effort effort) {
   if (reach.reached == 0) return "<td>&ndash;</td>";
-  const std::string share = reach.reached < reach.of ? fmt::format(" <small>{}/{}</small>", reach.reached, reach.of) : "";
+  const std::string share =
+      reach.reached < reach.of ? fmt::format(" <small>{}/{}</small>", reach.reached, reach.of) : "";
   if (!reach.median) return fmt::format("<td>&ndash;{}</td>", share);
   return fmt::format("<td>{}{}</td>", effort == Effort::seconds ? fmt::format("{:.3g} s", *reach.median)
                                                                 : readable_number(std::round(*reach.median)), share);
@@ -118,8 +121,8 @@ std::string reach_html(const Contest& contest, const CompareResult& result) {
     for (const CompareReach& reach : rows[who]) html += reach_cell(reach, summary.effort);
     html += "</tr>\n";
   }
-  return html + fmt::format("</tbody></table></div>\n<p class=\"note\">Median of the {} that each took; a fraction says "
-                            "how many of its seeds got there.</p>\n", name_of(summary.effort));
+  return html + fmt::format("</tbody></table></div>\n<p class=\"note\">Median of the {} that each took; a fraction "
+                            "says how many of its seeds got there.</p>\n", name_of(summary.effort));
 }
 
 std::string work_html(const Contest& contest, const CompareResult& result) {
@@ -184,7 +187,7 @@ std::string data_json(const Contest& contest, const CompareResult& result) {
   std::vector<std::string> axes;
   for (const CompareAxis& axis : result.summary.axes)
     axes.push_back(axis_json(std::string(name_of(axis.effort)), axis.at, axis.curves));
-  return chart_json(result.optimum, names_in(contest), axes);
+  return chart_json(result.optimum, names_in(contest), names_in(contest), axes);
 }
 
 }  // namespace

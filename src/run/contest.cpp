@@ -62,10 +62,12 @@ class ContestRun {
     seed_ = seed;
     contenders_.clear();
     for (std::size_t variant = begin; variant < end && !stopped(); ++variant) enter(variant);
-    while (!stopped() && std::any_of(contenders_.begin(), contenders_.end(), [](const Contender& c) { return !c.over; }))
+    const auto goes_on = [](const Contender& contender) { return !contender.over; };
+    while (!stopped() && std::any_of(contenders_.begin(), contenders_.end(), goes_on)) {
       for (Contender& contender : contenders_) {
         if (!contender.over && !stopped()) turn(contender);
       }
+    }
     for (Contender& contender : contenders_) {
       if (!contender.over && contender.session->last().step > 0) end_of(contender, "interrupt");
     }
@@ -191,7 +193,8 @@ std::vector<std::string> warn_of_other_scores(const Contest& contest) {
   const Scene& first = contest.variants.front().scene;
   for (const ContestVariant& variant : contest.variants) {
     const Scene& scene = variant.scene;
-    if (scene.volume == first.volume && scene.silhouettes == first.silhouettes && scene.limits == first.limits) continue;
+    if (scene.volume == first.volume && scene.silhouettes == first.silhouettes && scene.limits == first.limits)
+      continue;
     lines.push_back(fmt::format("{} has other targets or limits than {}: their scores do not compare", variant.name,
                                 contest.variants.front().name));
   }

@@ -133,9 +133,13 @@ std::string axis_json(const std::string& name, const std::vector<double>& at, co
   return fmt::format("{{\"name\":\"{}\",\n\"at\":{},\n\"curves\":[{}]}}", name, numbers_json(at), text);
 }
 
-std::string chart_json(double optimum, const std::vector<std::string>& names, const std::vector<std::string>& axes) {
-  return json_for_script(fmt::format("{{\"optimum\":{:.9g},\n\"names\":{},\n\"axes\":[{}]}}", optimum,
-                                     nlohmann::ordered_json(names).dump(-1, ' ', true), fmt::join(axes, ",\n")));
+std::string chart_json(double optimum, const std::vector<std::string>& names, const std::vector<std::string>& labels,
+                       const std::vector<std::string>& axes) {
+  const auto list = [](const std::vector<std::string>& texts) {
+    return nlohmann::ordered_json(texts).dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+  };
+  return json_for_script(fmt::format("{{\"optimum\":{:.9g},\n\"names\":{},\n\"labels\":{},\n\"axes\":[{}]}}",
+                                     optimum, list(names), list(labels), fmt::join(axes, ",\n")));
 }
 
 std::string listed_names(const std::vector<std::string>& names) {

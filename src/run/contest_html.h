@@ -31,7 +31,9 @@ std::string legend(const std::vector<std::string>& names);
 
 /// What chart.js draws: an axis with a curve per variant, and the whole of them, safe inside <script>.
 std::string axis_json(const std::string& name, const std::vector<double>& at, const std::vector<CompareCurve>& curves);
-std::string chart_json(double optimum, const std::vector<std::string>& names, const std::vector<std::string>& axes);
+/// `labels`: short names, beside the lines.
+std::string chart_json(double optimum, const std::vector<std::string>& names, const std::vector<std::string>& labels,
+                       const std::vector<std::string>& axes);
 
 /// "ga, smc and rjmcmc".
 std::string listed_names(const std::vector<std::string>& names);

@@ -43,8 +43,8 @@ struct ContestWords {
   std::optional<std::uint64_t> evaluations, generations;
 };
 
-/// "a,[1,2],\"x,y\"" as its three members: commas within brackets, braces and quotes part nothing. Blanks around members
-/// go.
+/// "a,[1,2],\"x,y\"" as its three members: commas within brackets, braces and quotes part nothing. Blanks around
+/// members go.
 std::vector<std::string> split_list(std::string_view text);
 
 /// "ga,smc": a variant each, of that engine. Throws Error for what is no engine.

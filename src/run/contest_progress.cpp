@@ -128,7 +128,7 @@ class ContestBar final : public ContestLines {
 
 std::string plan_in_words(const ContestStart& start) {
   const std::size_t searches = start.names.size() * start.seeds.size();
-  std::string text = fmt::format("{}, {}, {} each", counted(start.names.size(), "variant"),
+  std::string text = fmt::format("{}, {}, {} each", counted(start.names.size(), start.what == "sweep" ? "combination" : "variant"),
                                  seeds_in_words(start.seeds), in_words(start.budget));
   text += fmt::format(" with {}", counted(static_cast<std::size_t>(start.threads), "thread"));
   if (!start.budget.seconds || searches == 1) return text;

@@ -6,28 +6,24 @@ namespace espalier {
 
 void Rises::add(const StepReport& report) {
   last_ = {report.evaluations, report.seconds, report.best};
-  if (!rises_.empty() && report.best <= rises_.back().best) return;
-  rises_.push_back(last_);
-  if (rises_.size() < kMost) return;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < rises_.size(); ++i) {
-    if (i == 0 || i % 2 == 1) rises_[kept++] = rises_[i];  // the first and the last are among them
-  }
-  rises_.resize(kept);
+  if (empty() || report.best > rises_.rows().back().row.best) rises_.add(count_++, last_);
 }
 
 std::optional<double> Rises::at(Effort effort, double so_much) const {
-  if (rises_.empty() || so_much < first(effort) || so_much > last(effort)) return std::nullopt;
-  const auto after = std::upper_bound(rises_.begin(), rises_.end(), so_much,
-                                      [&](double value, const Rise& rise) { return value < spent(rise, effort); });
-  return (after - 1)->best;
+  if (empty() || so_much < first(effort) || so_much > last(effort)) return std::nullopt;
+  const auto& rows = rises_.rows();
+  const auto after = std::upper_bound(rows.begin(), rows.end(), so_much, [&](double value, const auto& numbered) {
+    return value < spent(numbered.row, effort);
+  });
+  return (after - 1)->row.best;
 }
 
 std::optional<double> Rises::reaching(Effort effort, double score) const {
-  const auto found = std::lower_bound(rises_.begin(), rises_.end(), score,
-                                      [](const Rise& rise, double value) { return rise.best < value; });
-  if (found == rises_.end()) return std::nullopt;
-  return spent(*found, effort);
+  const auto& rows = rises_.rows();
+  const auto found = std::lower_bound(rows.begin(), rows.end(), score,
+                                      [](const auto& numbered, double value) { return numbered.row.best < value; });
+  if (found == rows.end()) return std::nullopt;
+  return spent(found->row, effort);
 }
 
 }  // namespace espalier

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 #include "run/progress.h"
+#include "run/thinned.h"
 
 namespace espalier {
 
@@ -18,14 +18,14 @@ inline std::string_view name_of(Effort effort) { return effort == Effort::second
 
 class Rises {
  public:
-  static constexpr std::size_t kMost = 16'384;
+  static constexpr std::size_t kMost = 16'384;  // that are kept, the last aside
 
   /// Every step of the search, in order.
   void add(const StepReport& report);
 
-  bool empty() const { return rises_.empty(); }
+  bool empty() const { return rises_.rows().empty(); }
   /// What was spent when the first step ended, and when the last did. Only after a step.
-  double first(Effort effort) const { return spent(rises_.front(), effort); }
+  double first(Effort effort) const { return spent(rises_.rows().front().row, effort); }
   double last(Effort effort) const { return spent(last_, effort); }
   double best() const { return last_.best; }
 
@@ -45,7 +45,8 @@ class Rises {
     return effort == Effort::seconds ? rise.seconds : static_cast<double>(rise.evaluations);
   }
 
-  std::vector<Rise> rises_;
+  std::uint64_t count_ = 0;
+  Thinned<Rise> rises_{kMost};
   Rise last_;
 };
 

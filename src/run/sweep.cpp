@@ -113,7 +113,8 @@ std::optional<SweepResult> sweep_settings(const SweepRequest& request, MeshSourc
   if (std::none_of(bests.begin(), bests.end(), [](const auto& best) { return best.has_value(); })) return std::nullopt;
   summarise_sweep(request, result);
   // Where nothing has a median, what found anything comes before what found nothing.
-  std::stable_partition(result.ranking.begin(), result.ranking.end(), [&](std::size_t i) { return bests[i].has_value(); });
+  std::stable_partition(result.ranking.begin(), result.ranking.end(),
+                        [&](std::size_t i) { return bests[i].has_value(); });
   observer.writing();
   write_sweep(request, result, setups, *bests[result.ranking[0]], *executor, folder);
   observer.written();

@@ -31,6 +31,14 @@ std::string short_name(const SweepRequest& request, std::size_t combination) {
   return name;
 }
 
+/// "50, 0.5".
+std::string values_of(const SweepRequest& request, std::size_t combination) {
+  std::string text;
+  for (std::size_t i = 0; i < request.varied.size(); ++i)
+    text += (i > 0 ? ", " : "") + request.varied[i].values[request.combinations[combination][i]];
+  return text;
+}
+
 std::vector<std::size_t> shown_of(const SweepResult& result) {
   std::vector<std::size_t> shown;
   for (const std::size_t i : result.ranking) {
@@ -70,8 +78,8 @@ std::string effects_html(const SweepRequest& request, const SweepResult& result)
       if (effect.medians) low = std::min(low, effect.medians->min), high = std::max(high, effect.medians->max);
     }
   }
-  std::string html = "<div class=\"scroll\" tabindex=\"0\"><table class=\"numbers\">\n<thead><tr><th scope=\"col\">value"
-                     "</th><th scope=\"col\">median</th><th scope=\"col\">most</th><th scope=\"col\">combinations</th>"
+  std::string html = "<div class=\"scroll\" tabindex=\"0\"><table class=\"numbers\">\n<thead><tr>"
+                     "<th scope=\"col\">value</th><th scope=\"col\">median</th><th scope=\"col\">most</th><th scope=\"col\">combinations</th>"
                      "<th scope=\"col\">least, quartiles, median, most</th></tr></thead>\n<tbody>\n";
   for (std::size_t i = 0; i < request.varied.size(); ++i) html += effect_rows(request, result, i, low, high);
   return html + "</tbody></table></div>\n<p class=\"note\">Each row is over all combinations that have the value: of "
@@ -107,7 +115,8 @@ std::string table_html(const SweepRequest& request, const SweepResult& result, s
     if (std::isfinite(combination.scores->min)) low = std::min(low, combination.scores->min);
     if (std::isfinite(combination.scores->max)) high = std::max(high, combination.scores->max);
   }
-  std::string html = "<div class=\"scroll\" tabindex=\"0\"><table class=\"numbers\">\n<thead><tr><th scope=\"col\">rank</th>";
+  std::string html = "<div class=\"scroll\" tabindex=\"0\"><table class=\"numbers\">\n<thead><tr>"
+                     "<th scope=\"col\">rank</th>";
   for (const VariedSetting& one : request.varied)
     html += fmt::format("<th scope=\"col\">{}</th>", escape_html(short_key(one.key)));
   html += "<th scope=\"col\">median</th><th scope=\"col\">quartiles apart</th><th scope=\"col\">least</th>"
@@ -139,8 +148,8 @@ std::string picture_html(const SweepResult& result, const SweepPageParts& parts)
 
 std::string data_json(const SweepRequest& request, const SweepResult& result) {
   const std::vector<std::size_t> shown = shown_of(result);
-  std::vector<std::string> names;
-  for (const std::size_t i : shown) names.push_back(short_name(request, i));
+  std::vector<std::string> names, labels;
+  for (const std::size_t i : shown) names.push_back(short_name(request, i)), labels.push_back(values_of(request, i));
   const bool by_time = request.contest.budget.seconds.has_value();
   double last = 0;
   const auto spent = by_time ? [](const StepReport& r) { return r.seconds; }
@@ -152,6 +161,9 @@ std::string data_json(const SweepRequest& request, const SweepResult& result) {
       first = std::min(first, spent(search->steps.front())), last = std::max(last, spent(search->steps.back()));
     }
   }
+  if (by_time) last = std::min(last, *request.contest.budget.seconds);
+  if (request.contest.budget.evaluations)
+    last = std::min(last, static_cast<double>(*request.contest.budget.evaluations));
   const std::vector<double> at = axis_points(by_time ? Effort::seconds : Effort::evaluations, first, last, {});
   const std::vector<double> steps = sweep_steps(result, shown);
   std::vector<CompareCurve> best, mean;
@@ -160,7 +172,7 @@ std::string data_json(const SweepRequest& request, const SweepResult& result) {
     mean.push_back(sweep_curve(result, i, steps, [](const StepReport& r) { return static_cast<double>(r.step); },
                                [](const StepReport& r) { return r.mean; }));
   }
-  return chart_json(result.optimum, names, {axis_json(by_time ? "seconds" : "evaluations", at, best),
+  return chart_json(result.optimum, names, labels, {axis_json(by_time ? "seconds" : "evaluations", at, best),
                                             axis_json("steps", steps, mean)});
 }
 
@@ -177,8 +189,8 @@ std::string words(const SweepRequest& request, const SweepResult& result) {
 
 std::string search_line(const SweepRequest& request, const SweepResult& result) {
   const Contest& contest = request.contest;
-  std::string text = fmt::format("{} x {}, {} each, taking turns on {}", counted(contest.variants.size(), "combination"),
-                                 counted(contest.seeds.size(), "seed"), in_words(contest.budget),
+  std::string text = fmt::format("{} x {}, {} each, taking turns on {}",
+                                 counted(contest.variants.size(), "combination"), counted(contest.seeds.size(), "seed"), in_words(contest.budget),
                                  counted(static_cast<std::size_t>(result.threads), "thread"));
   return text + (result.interrupted ? "; stopped by hand" : "");
 }

@@ -56,7 +56,8 @@ std::vector<std::vector<std::size_t>> draw_combinations(const std::vector<Varied
   RandomStream random({seed, Purpose::sample, 0, 0, 0});
   while (drawn.size() < count) {
     std::vector<std::size_t> choice;
-    for (const VariedSetting& one : varied) choice.push_back(random.below(static_cast<std::uint32_t>(one.values.size())));
+    for (const VariedSetting& one : varied)
+      choice.push_back(random.below(static_cast<std::uint32_t>(one.values.size())));
     drawn.insert(std::move(choice));
   }
   return {drawn.begin(), drawn.end()};
@@ -81,7 +82,6 @@ std::vector<std::vector<std::size_t>> plan_combinations(const std::vector<Varied
                                                         std::uint64_t seed) {
   double product = 1;  // too many for a whole number, it may be
   for (const VariedSetting& one : varied) product *= static_cast<double>(one.values.size());
-  // Many of few are drawn slowly: all but a few of them are all.
   if (random && static_cast<double>(*random) < product) return draw_combinations(varied, *random, seed);
   if (product > static_cast<double>(kMostSweepSearches)) {
     throw Error(fmt::format("--vary gives {:.0f} combinations, at most {} searches make a sweep; --random N takes N of "
@@ -112,8 +112,8 @@ std::vector<VariantWords> sweep_variants(const std::vector<VariedSetting>& varie
 void check_sweep(const std::vector<VariedSetting>& varied, const Contest& contest) {
   const std::size_t searches = contest.variants.size() * contest.seeds.size();
   if (searches > kMostSweepSearches) {
-    throw Error(fmt::format("a sweep is at most {} searches, got {} combinations x {} seeds = {}; --random N takes N of "
-                            "the combinations", kMostSweepSearches, contest.variants.size(), contest.seeds.size(),
+    throw Error(fmt::format("a sweep is at most {} searches, got {} combinations x {} seeds = {}; --random N takes N "
+                            "of the combinations", kMostSweepSearches, contest.variants.size(), contest.seeds.size(),
                             searches));
   }
   for (const VariedSetting& one : varied) {

@@ -1,5 +1,6 @@
 // Curves of several variants with bands: log or linear, whose of them, mean or median, each seed. All charts of a page
-// follow the same switches. page.data.axes[i] = {name, at, curves: [{mean, deviation, median, lower, upper, searches}]}.
+// follow the same switches. page.data: {optimum, names, labels, axes}; axes[i]: {name, at, curves}, a curve per name:
+// {mean, deviation, median, lower, upper, searches}.
 "use strict";
 const charts = {
   view: {scale: "log", band: "mean", seeds: false, hidden: new Set()},
@@ -91,7 +92,7 @@ class Chart {
     svg.replaceChildren();
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     const shown = this.shown(), [low, high] = this.range(shown), log = charts.view.scale === "log";
-    const names = page.data.names.map((name) => name.length > 14 ? name.slice(0, 13) + "\u2026" : name);
+    const names = page.data.labels.map((name) => name.length > 14 ? name.slice(0, 13) + "\u2026" : name);
     const longest = Math.max(0, ...shown.map(({index}) => names[index].length));
     const edge = {left: 50, right: 22 + 7.2 * longest, top: 12, bottom: 40};
     const last = axis.at[axis.at.length - 1], first = log ? axis.at[0] : 0;
@@ -164,8 +165,9 @@ class Chart {
       if (one.x < right - 4) {
         charts.element(this.svg, "circle", {class: "s" + one.index, r: 3, cx: one.x, cy: one.y});
       }
+      const from = one.x < right - 4 ? one.at : one.y;
       charts.element(this.svg, "polyline", {class: "leader s" + one.index,
-                                            points: `${right + 2},${one.x < right - 4 ? one.at : one.y} ${right + 9},${one.at}`});
+                                            points: `${right + 2},${from} ${right + 9},${one.at}`});
       charts.element(this.svg, "text", {class: "name s" + one.index, x: right + 12, y: one.at + 4}, names[one.index]);
     }
   }
