@@ -15,6 +15,7 @@ ContestWords contest_words(const ContestOptions& options) {
   words.settings = options.settings, words.attributes = options.attributes;
   words.seed = options.seed, words.seeds = options.seeds;
   words.seconds = options.seconds, words.evaluations = options.evaluations, words.generations = options.generations;
+  words.clock = options.clock;
   return words;
 }
 
@@ -35,6 +36,7 @@ std::string options_again(const ContestOptions& options) {
   if (options.generations) text += fmt::format(" --generations {}", *options.generations);
   for (const std::string& setting : options.settings) text += " --set " + shell_word(setting);
   for (const std::string& attribute : options.attributes) text += " -D " + shell_word(attribute);
+  if (options.clock != "wall") text += " --clock " + shell_word(options.clock);
   if (options.threads > 0) text += fmt::format(" --threads {}", options.threads);
   return text;
 }

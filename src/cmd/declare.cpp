@@ -14,6 +14,7 @@ void declare_contest(CLI::App* verb, ContestOptions& o) {
   verb->add_option("--seed", o.seed, "The first of them")->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
   verb->add_option("--time", o.seconds, "Seconds for each search (replaces the scene's budget)");
   verb->add_option("--evaluations", o.evaluations, "Evaluations for each search (replaces the scene's budget)");
+  verb->add_option("--clock", o.clock, "What seconds are: wall, or computing of all threads together (wall)");
   declare_threads(verb, o.threads);
   declare_settings(verb, o.settings);
   declare_attributes(verb, o.attributes);

@@ -59,7 +59,7 @@ struct RunVerbOptions {
 /// What compare and sweep share.
 struct ContestOptions {
   std::string scene;
-  std::string seeds = "5";
+  std::string seeds = "5", clock = "wall";
   std::optional<std::uint64_t> seed;
   std::optional<double> seconds;
   std::optional<std::uint64_t> evaluations, generations;

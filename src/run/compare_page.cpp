@@ -46,6 +46,7 @@ std::string search_line(const Contest& contest, const CompareResult& result) {
   std::string text = fmt::format("{}, {} each, taking turns on {}", counted(result.summary.counted.size(), "seed"),
                                  in_words(contest.budget),
                                  counted(static_cast<std::size_t>(result.threads), "thread"));
+  if (contest.clock == StopwatchClock::computing) text += ", seconds of computing";
   if (result.summary.partial) text += "; stopped by hand before any seed was done";
   else if (result.interrupted)
     text += fmt::format("; stopped by hand, {} planned", counted(contest.seeds.size(), "seed"));

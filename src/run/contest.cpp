@@ -81,7 +81,7 @@ class ContestRun {
       Setup& setup = setups_.of(variant);
       setup.scene.seed = seed_;
       setup.scene.output.keep = 0;  // alternatives are no part of the contest
-      contender.session = std::make_unique<SearchSession>(setup, executor_);
+      contender.session = std::make_unique<SearchSession>(setup, executor_, contest_.clock);
     } catch (const Error& error) {
       fail(contender, error.what());
     }

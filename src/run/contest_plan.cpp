@@ -158,11 +158,18 @@ std::vector<std::uint64_t> parse_seeds(std::string_view text, std::uint64_t firs
   return seeds;
 }
 
+StopwatchClock parse_clock(std::string_view text) {
+  if (text == "wall") return StopwatchClock::wall;
+  if (text == "computing") return StopwatchClock::computing;
+  throw Error(fmt::format("--clock must be wall or computing, got \"{}\"", text));
+}
+
 Contest make_contest(const ContestWords& words, const std::vector<VariantWords>& variants, bool generations_count) {
   CHECK(!variants.empty());
   check_names(variants);
   Contest contest;
   contest.scene_path = words.scene;
+  contest.clock = parse_clock(words.clock);
   const std::optional<SceneBudget> given = budget_given(words);
   for (const VariantWords& variant : variants) {
     SceneOverrides overrides = {words.settings, words.attributes};

@@ -10,6 +10,7 @@
 
 #include "run/rises.h"
 #include "run/scene_toml.h"
+#include "run/stopwatch.h"
 
 namespace espalier {
 
@@ -25,6 +26,7 @@ struct Contest {
   std::vector<ContestVariant> variants;
   std::vector<std::uint64_t> seeds;
   SceneBudget budget;  // of each search; one of the three
+  StopwatchClock clock = StopwatchClock::wall;
 };
 
 /// A variant before its scene is read.
@@ -41,6 +43,7 @@ struct ContestWords {
   std::string seeds = "5";
   std::optional<double> seconds;
   std::optional<std::uint64_t> evaluations, generations;
+  std::string clock = "wall";  // or "computing"
 };
 
 /// "a,[1,2],\"x,y\"" as its three members: commas within brackets, braces and quotes part nothing. Blanks around
@@ -54,6 +57,9 @@ VariantWords parse_variant(std::string_view text);
 
 /// "5": that many from `first` on; "3,7,9": these. Throws Error for none, too many or the same twice.
 std::vector<std::uint64_t> parse_seeds(std::string_view text, std::uint64_t first);
+
+/// "wall" or "computing". Throws Error.
+StopwatchClock parse_clock(std::string_view text);
 
 /// Reads the scene of every variant. A budget in `words` takes the place of the scene's; without one, the scene's
 /// seconds or else its evaluations hold, and its generations only where `generations_count`: engines mean different

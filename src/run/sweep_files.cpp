@@ -127,6 +127,7 @@ std::string sweep_json(const SweepRequest& request, const SweepResult& result) {
                                  {"optimum", result.optimum},
                                  {"budget", budget},
                                  {"threads", result.threads},
+                                 {"clock", contest.clock == StopwatchClock::wall ? "wall" : "computing"},
                                  {"seeds", contest.seeds},
                                  {"interrupted", result.interrupted},
                                  {"warnings", result.warnings},
