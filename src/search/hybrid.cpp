@@ -166,8 +166,8 @@ std::vector<NamedGauge> HybridEngine::gauges() const {
 std::string HybridEngine::own_fingerprint() const {
   return fingerprint("hybrid", problem_,
                      fmt::format("sweeps {} start {} patience {} least {}; {}; {}; {}", settings_.sweeps,
-                                 settings_.start_evaluations, settings_.patience, settings_.least_rise, to_text(settings_.start), to_text(settings_.middle),
-                                 to_text(settings_.end)));
+                                 settings_.start_evaluations, settings_.patience, settings_.least_rise,
+                                 to_text(settings_.start), to_text(settings_.middle), to_text(settings_.end)));
 }
 
 void HybridEngine::save(std::ostream& out) const {
@@ -200,9 +200,10 @@ void HybridEngine::load(std::istream& in) {
   }
   const std::uint64_t size = reader.u64_at_most(1'000'000, "founders");
   std::vector<Individual> founders;
-  for (std::uint64_t i = 0; i < size; ++i) founders.push_back(read_finished_individual(reader, *problem_.graph, settings_.middle.genes));
+  const auto read_one = [&] { return read_finished_individual(reader, *problem_.graph, settings_.middle.genes); };
+  for (std::uint64_t i = 0; i < size; ++i) founders.push_back(read_one());
   Individual best;
-  if (steps > 0) best = read_finished_individual(reader, *problem_.graph, settings_.middle.genes);
+  if (steps > 0) best = read_one();
   std::unique_ptr<Engine> engine = make_engine(stage, founders);
   engine->load(in);
 
