@@ -1,6 +1,6 @@
 #pragma once
-// Chances of Markov chains to accept, in logs; `beta` is 1 / temperature, and what is called a value is log weight(score)
-// at temperature 1 (score_weight.h), -infinity for what is not acceptable.
+// Chances of Markov chains to accept, in logs; `beta` is 1 / temperature, and what is called a value is
+// log weight(score) at temperature 1 (score_weight.h), -infinity for what is not acceptable.
 
 #include <algorithm>
 

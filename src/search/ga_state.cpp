@@ -45,15 +45,16 @@ void GaEngine::load(std::istream& in) {
     throw Error(fmt::format("saved state: champions must be at most {}, got {}", kReunion, champion_count));
   }
   std::vector<Individual> champions;
-  for (std::uint64_t i = 0; i < champion_count; ++i) champions.push_back(read_finished_individual(reader, *problem_.graph, settings_.genes));
+  const auto read_one = [&] { return read_finished_individual(reader, *problem_.graph, settings_.genes); };
+  for (std::uint64_t i = 0; i < champion_count; ++i) champions.push_back(read_one());
   const std::uint64_t size = reader.u64();
   if (size != (steps > 0 ? settings_.population : 0)) {
     throw Error(fmt::format("saved state: population must be {}, got {}", steps > 0 ? settings_.population : 0, size));
   }
   Individual best;
-  if (size > 0) best = read_finished_individual(reader, *problem_.graph, settings_.genes);
+  if (size > 0) best = read_one();
   std::vector<Individual> population;
-  for (std::uint64_t i = 0; i < size; ++i) population.push_back(read_finished_individual(reader, *problem_.graph, settings_.genes));
+  for (std::uint64_t i = 0; i < size; ++i) population.push_back(read_one());
 
   steps_ = steps;
   epoch_ = static_cast<std::uint32_t>(epoch);

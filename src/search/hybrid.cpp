@@ -192,5 +192,4 @@ std::vector<NamedGauge> HybridEngine::gauges() const {
   }
   return all;
 }
-
 }  // namespace espalier

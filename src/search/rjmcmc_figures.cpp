@@ -38,7 +38,9 @@ std::vector<NamedCount> RjmcmcEngine::diagnostics() const {
   };
   for (std::size_t kind = 0; kind < kProposalKinds; ++kind) {
     ProposalCount sum;
-    for (const auto& of_rung : counts_.proposals) sum.proposed += of_rung[kind].proposed, sum.accepted += of_rung[kind].accepted;
+    for (const auto& of_rung : counts_.proposals) {
+      sum.proposed += of_rung[kind].proposed, sum.accepted += of_rung[kind].accepted;
+    }
     add(kKinds[kind], sum);
   }
   for (std::size_t rung = 0; rung < counts_.proposals.size(); ++rung) {

@@ -26,7 +26,8 @@ std::string to_text(const RjmcmcSettings& s) {
                      "choice {} delayed {} swap {} weight {} length {}..{} genes {}..{}",
                      s.chains, s.temperatures, s.heat, s.temperature.value_or(0), s.anneal, s.anneal_every,
                      s.anneal_most, s.draws, s.nudges, s.slots, s.jumps, static_cast<int>(s.choice), s.delayed,
-                     s.swap_every, static_cast<int>(s.weight), s.initial_length_min, s.initial_length_max, s.genes.min, s.genes.max);
+                     s.swap_every, static_cast<int>(s.weight), s.initial_length_min, s.initial_length_max, s.genes.min,
+                     s.genes.max);
 }
 
 }  // namespace espalier

@@ -15,8 +15,8 @@ enum class ScoreWeight : std::uint8_t {
 /// not above 0.
 double log_weight(ScoreWeight weight, double score);
 
-/// 1 / temperature. Where none is given: of ratios 1; else the temperature is the optimum / `parts`, or 1 where no score
-/// is above 0.
+/// 1 / temperature. Where none is given: of ratios 1; else the temperature is the optimum / `parts`, or 1 where no
+/// score is above 0.
 double inverse_temperature(ScoreWeight weight, const std::optional<double>& temperature, double optimum, double parts);
 
 }  // namespace espalier

@@ -6,7 +6,8 @@
 //
 //     prior(derivation) * exp(score / temperature), restricted to what is acceptable (or * score^(1 / temperature)),
 //
-// weighted, and the product of mean weights is an unbiased estimate of its integral (unless `most_steps` cut some short).
+// weighted, and the product of mean weights is an unbiased estimate of its integral (unless `most_steps` cut some
+// short).
 // Then another sweep begins.
 //
 // What growth cannot mend weighs nothing: more genes than the limits allow, and what the scorer finds not acceptable.

@@ -73,9 +73,11 @@ void SmcEngine::load(std::istream& in) {
   }
   const double log_evidence = reader.f64(), log_mean = reader.f64(), effective = reader.f64();
   const double last_log_evidence = reader.f64();
+  if (std::isinf(last_log_evidence)) throw Error("saved state: the log evidence of a sweep must not be infinite");
   SmcCounts counts;
   for (const Entry& entry : kEntries) counts.*entry.member = reader.u64();
-  const std::uint64_t living = reader.u64_at_most(sweep_step > 0 ? particles : settings_.most_particles, "living particles");
+  const std::uint64_t most_living = sweep_step > 0 ? particles : settings_.most_particles;
+  const std::uint64_t living = reader.u64_at_most(most_living, "living particles");
   Individual best;
   std::vector<Individual> individuals;
   std::vector<double> log_weights;

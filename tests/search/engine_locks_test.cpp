@@ -57,8 +57,8 @@ struct Setting {
   std::uint64_t seed = 0;
 };
 
-/// A random graph, a random derivation of it with one to three locks of any scope, and up to two more founders for which
-/// these hold too. Nothing where the graph yields none.
+/// A random graph, a random derivation of it with one to three locks of any scope, and up to two more founders for
+/// which these hold too. Nothing where the graph yields none.
 std::optional<Setting> random_setting(std::uint64_t seed) {
   RandomStream random({seed, Purpose::test});
   Setting one;
@@ -159,7 +159,8 @@ TEST_P(EngineLocks, HoldWhateverIsLocked) {
   EXPECT_GT(changed, asked / 4) << "locks that hold everything prove nothing";
 }
 
-INSTANTIATE_TEST_SUITE_P(Search, EngineLocks, ::testing::Range(0, 5), [](const auto& which) { return kNames[which.param]; });
+INSTANTIATE_TEST_SUITE_P(Search, EngineLocks, ::testing::Range(0, 5),
+                         [](const auto& which) { return kNames[which.param]; });
 
 }  // namespace
 }  // namespace espalier

@@ -104,7 +104,7 @@ class Balance {
     count(std::to_string(std::ilogb(to - from)), from < to);
   }
   std::size_t pairs() const {
-    return static_cast<std::size_t>(std::count_if(ways_.begin(), ways_.end(), [](const auto& way) { return counts(way); }));
+    return static_cast<std::size_t>(std::count_if(ways_.begin(), ways_.end(), counts));
   }
   /// Chi-square of the differences over its bound at 0.0005: given how often a pair was seen at all, the ways are a
   /// throw of a fair coin. Pairs that were rarely seen are left out.

@@ -1,5 +1,5 @@
-// Detailed balance: from exact draws of the posterior, every kind of move goes from x to y as often as from y to x. Each
-// kind by itself, first the proposals with a plain rule of acceptance, then the engine.
+// Detailed balance: from exact draws of the posterior, every kind of move goes from x to y as often as from y to x.
+// Each kind by itself, first the proposals with a plain rule of acceptance, then the engine.
 #include <functional>
 #include <memory>
 

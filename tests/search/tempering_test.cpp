@@ -1,6 +1,6 @@
-// Swaps between temperatures keep the joint distribution of a ladder: the product of the posteriors of its rungs. Ladders
-// begin with exact draws, each of its own rung, and after a few steps pairs of neighbours must still be independent and
-// each as its rung wants it.
+// Swaps between temperatures keep the joint distribution of a ladder: the product of the posteriors of its rungs.
+// Ladders begin with exact draws, each of its own rung, and after a few steps pairs of neighbours must still be
+// independent and each as its rung wants it.
 #include <algorithm>
 #include <array>
 #include <memory>
