@@ -108,7 +108,7 @@ void declare_run(CLI::App& app, CommandLine& line) {
   RunVerbOptions& o = line.run;
   verb->add_option("scene", o.scene, "Scene file (.toml)");
   verb->add_option("--resume", o.resume, "Instead of a scene: go on with the run of this folder, from its checkpoint");
-  verb->add_flag("--force", o.force, "With --resume, where inputs have changed: search anew from the checkpoint's models");
+  verb->add_flag("--force", o.force, "With --resume, where inputs have changed: search anew from its models");
   verb->add_option("--checkpoint-every", o.checkpoint_seconds, "Keep a checkpoint every so many seconds of the search")
       ->check(CLI::Range(1e-3, 1e6));
   verb->add_option("--from", o.from, "Start from this model: a .derivation.json, or a run's folder (its best)");

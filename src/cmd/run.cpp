@@ -100,7 +100,9 @@ std::unique_ptr<RunObserver> make_observer(bool json) {
 int run_verb(const RunVerbOptions& options) {
   namespace fs = std::filesystem;
   const bool resumes = !options.resume.empty();
-  if (resumes != options.scene.empty()) throw Error("run takes a scene, or --resume with the folder of a run: one of them");
+  if (resumes != options.scene.empty()) {
+    throw Error("run takes a scene, or --resume with the folder of a run: one of them");
+  }
   if (options.force && !resumes) throw Error("--force goes with --resume");
   const std::unique_ptr<RunObserver> observer = make_observer(options.json);
   RunOptions run;

@@ -43,7 +43,9 @@ Scene without_what_may_differ(Scene scene) {
 
 }  // namespace
 
-Scene scene_of(const Checkpoint& checkpoint) { return parse_scene(checkpoint.settings, "settings of the checkpoint", ""); }
+Scene scene_of(const Checkpoint& checkpoint) {
+  return parse_scene(checkpoint.settings, "settings of the checkpoint", "");
+}
 
 std::vector<std::string> setting_changes(const Scene& now, const Scene& before) {
   const auto is = by_key(to_toml(without_what_may_differ(now))), was = by_key(to_toml(without_what_may_differ(before)));

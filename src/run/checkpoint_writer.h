@@ -1,6 +1,6 @@
 #pragma once
 // CheckpointWriter: keeps checkpoints of a search in the staging folder of its run, each whole or not there at all: the
-// one before stays until the next has its name. With the first come run.toml and inputs/, so that the folder is complete.
+// one before stays until the next has its name. With the first come run.toml and inputs/, so that nothing is missing.
 
 #include <string>
 

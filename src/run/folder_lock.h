@@ -1,6 +1,6 @@
 #pragma once
-// FolderLock: says that a process is at work in a folder, for as long as the process lives: a lock on a file in it, which
-// the system lets go when the process ends in whatever way.
+// FolderLock: says that a process is at work in a folder, for as long as the process lives: a lock on a file in it,
+// which the system lets go when the process ends in whatever way.
 
 #include <optional>
 #include <string>

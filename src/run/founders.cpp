@@ -131,7 +131,9 @@ void take_founders(Setup& setup, const Scene& from) {
     Individual founder = {derivation, 0};
     const Derivation* const one = &derivation;
     if (why.empty()) scorer.score({&one, 1}, {&founder.score, 1});
-    if (founder.score == kNotAcceptable) why = "a hard limit does not accept it: " + scorer.explain(derivation).rejected;
+    if (founder.score == kNotAcceptable) {
+      why = "a hard limit does not accept it: " + scorer.explain(derivation).rejected;
+    }
     if (why.empty()) setup.founders.push_back(std::move(founder));
     if (objection.empty()) objection = std::move(why);
   }

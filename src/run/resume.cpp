@@ -1,6 +1,7 @@
 // Going on from checkpoints.
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -51,13 +52,17 @@ void expect_budget_left(const ResumePoint& point, const SceneBudget& budget) {
                           point.folder, spent));
 }
 
-/// Removes what an ended process may have half written: all but what the search needs, and the report that people watch.
-void tidy(const std::string& folder) {
+/// Removes what an ended process may have half written: all but what the search needs, and the report people watch.
+void tidy(const std::string& folder, const std::map<std::string, std::string>& inputs) {
   constexpr const char* kKept[] = {kCheckpointName, kRunMarker, "inputs", FolderLock::kName, "report.html", "best.png"};
   std::vector<fs::path> stale;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const auto is_kept = [&](const char* name) { return entry.path().filename() == name; };
     if (std::none_of(std::begin(kKept), std::end(kKept), is_kept)) stale.push_back(entry.path());
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(folder) / "inputs")) {
+    const std::string name = entry.path().lexically_relative(folder).generic_string();
+    if (!entry.is_directory() && !inputs.contains(name)) stale.push_back(entry.path());
   }
   std::error_code ignored;
   for (const fs::path& path : stale) fs::remove_all(path, ignored);
@@ -90,8 +95,9 @@ class Resumption {
   bool go_on(const Setup& setup, SearchSession& session) {
     const std::string from = point_.folder;
     const bool adopted = point_.lock && path_ == point_.path;
-    if (adopted) tidy(from);
-    RunFolder folder = adopted ? RunFolder(path_, kRunMarker, from, std::move(*point_.lock)) : RunFolder(path_, kRunMarker);
+    if (adopted) tidy(from, point_.checkpoint.inputs);
+    RunFolder folder =
+        adopted ? RunFolder(path_, kRunMarker, from, std::move(*point_.lock)) : RunFolder(path_, kRunMarker);
     const bool done = do_run({setup, folder, *executor_, session, observer_of(options_), options_.stop, from});
     std::error_code ignored;
     if (done && !adopted && point_.lock) fs::remove_all(from, ignored);
@@ -102,9 +108,9 @@ class Resumption {
     std::string list;
     for (const std::string& change : changes) list += "\n  " + change;
     if (!request_.force) {
+      const std::string& models = point_.checkpoint.population;
       throw Error(fmt::format("{}: the search cannot go on as it was:{}\n--force begins a new one with the best {} of "
-                              "its models", point_.folder, list,
-                              std::count(point_.checkpoint.population.begin(), point_.checkpoint.population.end(), '\n')));
+                              "its models", point_.folder, list, std::count(models.begin(), models.end(), '\n')));
     }
     const TemporaryFolder temporary;
     return begin_anew(temporary, list);
@@ -112,14 +118,15 @@ class Resumption {
 
   bool begin_anew(const TemporaryFolder& temporary, const std::string& changes) {
     const std::string grammar = (fs::path(scene_.folder) / scene_.grammar).string();
-    const std::string models = adapted_lines(*load_grammar(grammar, scene_.attributes).graph, point_.checkpoint.population);
+    const LoadedGrammar loaded = load_grammar(grammar, scene_.attributes);
+    const std::string models = adapted_lines(*loaded.graph, point_.checkpoint.population);
     if (models.empty()) throw Error(fmt::format("{}: none of the checkpoint's models can stand in it", grammar));
     scene_.start.derivation = temporary.file("population" + std::string(kManyDerivations));
     write_file(scene_.start.derivation, models);
     executor_ = make_tbb_executor(scene_.threads);
     const std::unique_ptr<Setup> setup = set_up(scene_, source_);
-    setup->warnings.push_back(fmt::format("this is a new search, from step 1 on, that begins with {} models of {} (step "
-                                          "{}). What has changed:{}", setup->founders.size(), point_.folder,
+    setup->warnings.push_back(fmt::format("this is a new search, from step 1 on, that begins with {} models of {} "
+                                          "(step {}). What has changed:{}", setup->founders.size(), point_.folder,
                                           point_.checkpoint.step, changes));
     RunFolder folder(path_, kRunMarker);
     SearchSession session(*setup, *executor_);

@@ -34,7 +34,9 @@ SceneStart read_start(const TomlValue& table, const std::string& file) {
   TomlSection s(table, file, "start");
   SceneStart start;
   const auto derivation = s.text("derivation");
-  if (!derivation || derivation->empty()) s.fail("derivation", "must be the path of a .derivation.json to start from (--from)");
+  if (!derivation || derivation->empty()) {
+    s.fail("derivation", "must be the path of a .derivation.json to start from (--from)");
+  }
   start.derivation = *derivation;
   if (const TomlValue* locks = s.member("locks")) {
     if (locks->kind != TomlValue::Kind::array) s.fail("locks", "must be a list of texts, got " + describe(*locks));

@@ -192,4 +192,5 @@ std::vector<NamedGauge> HybridEngine::gauges() const {
   }
   return all;
 }
+
 }  // namespace espalier

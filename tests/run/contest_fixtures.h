@@ -12,7 +12,7 @@
 namespace espalier::testing {
 
 inline constexpr const char* kSmallEngines[] = {"engine.sosmc.particles=30", "engine.smc.particles=30",
-                                                "engine.hybrid.patience=200", "engine.rjmcmc.chains=4"};
+                                                "engine.hybrid.turn=200", "engine.rjmcmc.chains=4"};
 
 inline ContestWords pile_words(const TemporaryFolder& folder, std::uint64_t evaluations = 700) {
   ContestWords words;

@@ -16,7 +16,6 @@ namespace {
 using ::testing::HasSubstr;
 using testing::partial_folders;
 using testing::read_text;
-using testing::results;
 using testing::TemporaryFolder;
 using testing::write_text;
 
@@ -75,7 +74,8 @@ class Resuming : public ::testing::Test {
     observer.on_step = [&](const StepReport& report) {
       if (report.step != stop + 1) return;
       for (const std::string& partial : partial_folders(folder_)) {
-        if (partial.find("/whole.partial-") != std::string::npos) fs::copy(partial, folder_ / left, fs::copy_options::recursive);
+        if (partial.find("/whole.partial-") == std::string::npos) continue;
+        fs::copy(partial, folder_ / left, fs::copy_options::recursive);
       }
     };
     ASSERT_TRUE(run("whole", 1e-9, observer, overrides, threads));
@@ -101,7 +101,7 @@ TEST_P(ResumingEngines, MakeTheFolderOfARunThatNeverStopped) {
   EXPECT_EQ(observer.first_step, step + 1);
   EXPECT_THAT(observer.folder, HasSubstr("/out.partial-aaaaaa"));
   EXPECT_EQ(observer.warnings, "");
-  EXPECT_EQ(results(folder_ / "out"), results(folder_ / "whole"));
+  testing::expect_same_results(folder_ / "out", folder_ / "whole");
   EXPECT_EQ(step_in("out"), 40u);
   EXPECT_TRUE(partial_folders(folder_).empty());
   EXPECT_FALSE(fs::exists(folder_ / "out/.lock"));
@@ -117,7 +117,7 @@ TEST_P(ResumingEngines, MakeTheFolderOfARunThatNeverStopped) {
   Telling longer;
   resume({.folder = "short", .budget = {.generations = 40}}, longer);
   EXPECT_EQ(longer.resumed_from, 13u);
-  EXPECT_EQ(results(folder_ / "short"), results(folder_ / "whole"));
+  testing::expect_same_results(folder_ / "short", folder_ / "whole");
 }
 
 INSTANTIATE_TEST_SUITE_P(Run, ResumingEngines, ::testing::ValuesIn(kEngineNames),
@@ -135,9 +135,10 @@ TEST_F(Resuming, WhatWasHalfWrittenIsRemoved) {
   leave("out.partial-aaaaaa", 12);
   const std::string checkpoint = read_text(folder_ / "out.partial-aaaaaa/checkpoint");
   write_text(folder_ / "out.partial-aaaaaa/.espalier-123-4.tmp", checkpoint.substr(0, 1000));
+  write_text(folder_ / "out.partial-aaaaaa/inputs/targets/.espalier-123-5.tmp", "stale");
   write_text(folder_ / "out.partial-aaaaaa/alternatives/77.glb", "stale");
   resume({.folder = "out"});
-  EXPECT_EQ(results(folder_ / "out"), results(folder_ / "whole"));
+  testing::expect_same_results(folder_ / "out", folder_ / "whole");
 }
 
 TEST_F(Resuming, ADamagedCheckpointIsRefused) {
@@ -193,7 +194,9 @@ TEST_F(Resuming, ForcedTheModelsGoOnInANewSearch) {
   EXPECT_EQ(read_text(folder_ / "out/inputs/pile.esp"), grammar);
   EXPECT_TRUE(fs::exists(folder_ / "out.partial-aaaaaa/checkpoint")) << "nothing is lost";
   // It begins about as good as the other one was, not from nothing.
-  const auto score = [&](const char* run) { return nlohmann::json::parse(read_text(folder_ / run))["score"].get<double>(); };
+  const auto score = [&](const char* file) {
+    return nlohmann::json::parse(read_text(folder_ / file))["score"].get<double>();
+  };
   EXPECT_GT(score("out/result.json"), 0.8 * score("whole/result.json"));
   AssimpMeshSource source;
   const ReproduceReport report = reproduce(folder_ / "out/best.glb", "", source, *make_serial_executor());
@@ -212,7 +215,7 @@ TEST_F(Resuming, ForcedNothingOfAnotherGrammarStands) {
 TEST_F(Resuming, WithNothingChangedForceChangesNothing) {
   leave("out.partial-aaaaaa", 12);
   resume({.folder = "out", .force = true});
-  EXPECT_EQ(results(folder_ / "out"), results(folder_ / "whole"));
+  testing::expect_same_results(folder_ / "out", folder_ / "whole");
 }
 
 TEST_F(Resuming, SeveralFoldersAreListed) {
@@ -222,7 +225,7 @@ TEST_F(Resuming, SeveralFoldersAreListed) {
   EXPECT_THAT(error, HasSubstr("/out.partial-aaaaaa (step "));
   EXPECT_THAT(error, HasSubstr("/out.partial-bbbbbb (step "));
   resume({.folder = "out.partial-bbbbbb"});
-  EXPECT_EQ(results(folder_ / "out"), results(folder_ / "whole"));
+  testing::expect_same_results(folder_ / "out", folder_ / "whole");
   EXPECT_TRUE(fs::exists(folder_ / "out.partial-aaaaaa"));
   EXPECT_FALSE(fs::exists(folder_ / "out.partial-bbbbbb"));
 }
@@ -234,7 +237,7 @@ TEST_F(Resuming, AFinishedRunOfAnotherSearchIsNotReplacedUnasked) {
   EXPECT_THAT(observer.warnings, HasSubstr("an interrupted run left "));
   EXPECT_THAT(error_of({.folder = "out"}), HasSubstr("is a finished run (step 40), and "));
   resume({.folder = "out.partial-aaaaaa"});
-  EXPECT_EQ(results(folder_ / "out"), results(folder_ / "whole"));
+  testing::expect_same_results(folder_ / "out", folder_ / "whole");
 }
 
 TEST_F(Resuming, AFolderIsContinuedByOneProcess) {
@@ -252,7 +255,7 @@ TEST_F(Resuming, MayGoElsewhere) {
   leave("out.partial-aaaaaa", 12);
   Telling observer;
   resume({.folder = "out"}, observer, "deep/other");
-  EXPECT_EQ(results(folder_ / "deep/other"), results(folder_ / "whole"));
+  testing::expect_same_results(folder_ / "deep/other", folder_ / "whole");
   EXPECT_FALSE(fs::exists(folder_ / "out"));
   EXPECT_TRUE(partial_folders(folder_).empty());
 }

@@ -27,10 +27,11 @@ class Sessions : public ::testing::TestWithParam<std::string_view> {
   Sessions() {
     write_pile(folder_, kScene);
     AssimpMeshSource source;
-    const SceneOverrides chosen = {{"search.engine=" + std::string(GetParam()), "engine.hybrid.patience=200",
-                                    "engine.hybrid.start_evaluations=300", "engine.sosmc.particles=200",
-                                    "engine.smc.particles=30", "volume.overlap_weight=0.1234567", "engine.ga.restart_after=12", "engine.ga.population=150"},
-                                   {}};
+    const SceneOverrides chosen = {
+        {"search.engine=" + std::string(GetParam()), "engine.hybrid.turn=200",
+         "engine.hybrid.start_evaluations=300", "engine.sosmc.particles=200", "engine.smc.particles=30", "engine.ga.restart_after=12",
+         "engine.ga.population=150", "volume.overlap_weight=0.1234567"},
+        {}};
     setup_ = set_up(load_scene(folder_ / "scene.toml", chosen), source);
   }
 

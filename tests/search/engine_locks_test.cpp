@@ -127,8 +127,7 @@ std::unique_ptr<Engine> make_engine(int which, const SearchProblem& problem) {
   }
   HybridSettings hybrid;
   hybrid.start = smc_settings(SlotOrder::random), hybrid.middle = ga_settings(), hybrid.end = rjmcmc_settings();
-  hybrid.patience = 150;
-  hybrid.least_rise = 1;
+  hybrid.turn = 150;
   return std::make_unique<HybridEngine>(problem, hybrid);
 }
 
