@@ -190,7 +190,7 @@ def write_page(out):
 VARIANTS = table(["variant", "what"], [
     ["`ga`", "the published genetic algorithm, `ga-2017` with the scene's published settings"],
     ["`smc`, `sosmc`, `rjmcmc`", "the samplers ([engines.md](engines.md)) with settings tuned for the scene"],
-    ["`better-ga`", "the genetic algorithm with what we added: local moves, no twins, restarts, joining; tuned"],
+    ["`better-ga`", "the genetic algorithm with what we added (`ga-large`: small steps from the best, what several gained is joined), its population tuned"],
     ["`hybrid`", "SOSMC for the start, then `better-ga` and `rjmcmc` in turns"],
 ])
 

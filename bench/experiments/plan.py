@@ -22,10 +22,9 @@ PUBLISHED = {"ga": "engine=ga", "smc": "engine=smc", "sosmc": "engine=sosmc", "r
 OURS = {"better-ga": "engine=ga", "hybrid": "engine=hybrid"}
 # Where the scene's own [engine.ga] is ours, the published one is named here, and the other way round.
 GA_PUBLISHED = {"avoid": ["engine.ga.preset=ga-2017"]}
-GA_OURS = {
-    "spaceship": ["engine.ga.preset=ga-local", "engine.ga.population=50", "engine.ga.elitism=10"],
-}
-GA_OURS_ELSE = ["engine.ga.preset=ga-local", "engine.ga.population=50", "engine.ga.elitism=10"]
+LARGE = ["engine.ga.preset=ga-large", "engine.ga.grow=1", "engine.ga.cut=0.5", "engine.ga.alter=0.2",
+         "engine.ga.nudge=1", "engine.ga.mutation=0.5", "engine.ga.elitism=4"]  # scenes name some of them otherwise
+GA_POPULATION = {"spaceship": 60, "sketch": 150, "avoid": 60, "silhouette": 150, "silhouette-long": 150, "city": 60}
 
 # How engines were tuned: other seeds than those that are compared, so many evaluations.
 TUNE_SEEDS, TUNE_EVALUATIONS = "11,12,13", 40000
@@ -33,9 +32,9 @@ TUNED = {
     "smc": {"temperature": [0.001, 0.003, 0.01, 0.03], "particles": [100, 500, 2000]},
     "sosmc": {"temperature": [0.001, 0.003, 0.01, 0.03], "particles": [100, 500, 2000]},
     "rjmcmc": {"temperature": [0.0001, 0.0003, 0.001], "chains": [1, 4]},
-    "ga": {"preset": ["ga-2017", "ga-local", "ga-large"], "population": [50, 150]},
+    "ga": {"population": [30, 60, 150], "adapt": ["false", "true"]},
 }
-TUNE_ALSO = {"rjmcmc": ["engine.rjmcmc.temperatures=1"], "ga": ["engine.ga.elitism=10"]}
+TUNE_ALSO = {"rjmcmc": ["engine.rjmcmc.temperatures=1"], "ga": LARGE}
 
 # The 2016 study: baseline as printed there (section 4.2), one parameter at a time.
 STUDY_SCENE = "scenes/spaceship-2016.toml"
@@ -59,13 +58,13 @@ def variants(name):
         if variant == "ga":
             settings += GA_PUBLISHED.get(name, [])
         elif variant in OURS:
-            settings += GA_OURS.get(name, GA_OURS_ELSE)
+            settings += LARGE + [f"engine.ga.population={GA_POPULATION[name]}"]
         words[variant] = ", ".join(settings)
     return words
 
 
 def espalier(*arguments):
-    command = [os.path.join(ROOT, "build", "espalier"), *arguments]
+    command = [os.environ.get("ESPALIER", os.path.join(ROOT, "build", "espalier")), *arguments]
     print("+ espalier " + " ".join(arguments), flush=True)
     done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode != 0:
