@@ -24,7 +24,7 @@ OURS = {"better-ga": "engine=ga", "hybrid": "engine=hybrid"}
 GA_PUBLISHED = {"avoid": ["engine.ga.preset=ga-2017"]}
 LARGE = ["engine.ga.preset=ga-large", "engine.ga.grow=1", "engine.ga.cut=0.5", "engine.ga.alter=0.2",
          "engine.ga.nudge=1", "engine.ga.mutation=0.5", "engine.ga.elitism=4"]  # scenes name some of them otherwise
-GA_POPULATION = {"spaceship": 60, "sketch": 150, "avoid": 60, "silhouette": 150, "silhouette-long": 150, "city": 60}
+GA_POPULATION = {"spaceship": 60, "sketch": 150, "avoid": 150, "silhouette": 150, "silhouette-long": 150, "city": 60}
 
 # How engines were tuned: other seeds than those that are compared, so many evaluations.
 TUNE_SEEDS, TUNE_EVALUATIONS = "11,12,13", 40000

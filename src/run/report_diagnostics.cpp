@@ -16,7 +16,7 @@ constexpr double kPad = 2;                 // so that lines at the rim are not c
 constexpr std::size_t kMostPoints = 220;
 
 std::string figure_of(double value) {
-  if (!std::isfinite(value)) return "&ndash;";
+  if (!std::isfinite(value)) return "&#8211;";
   return readable_number(value);
 }
 
@@ -60,7 +60,7 @@ std::string curve(const Rows& rows, std::size_t gauge, const Range& range) {
                         kTall - kPad - up * (kTall - 2 * kPad));
     drawing = true;
   }
-  return fmt::format("<svg class=\"spark\" viewBox=\"0 0 {:g} {:g}\" aria-hidden=\"true\"><path d=\"{}\"/></svg>", kWide,
+  return fmt::format("<svg class=\"spark\" viewBox=\"0 0 {:g} {:g}\" aria-hidden=\"true\"><path d=\"{}\"></path></svg>", kWide,
                      kTall, path);
 }
 
@@ -68,7 +68,7 @@ std::string curve_row(const SearchLog& log, std::size_t gauge) {
   const Rows& rows = log.gauge_rows();
   const Range range = range_of(rows, gauge);
   if (!range.any) return "";
-  return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{} &hellip; {}</td></tr>\n",
+  return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{} &#8230; {}</td></tr>\n",
                      escape_html(log.gauge_names()[gauge]), curve(rows, gauge, range),
                      figure_of(rows.back().row.values[gauge]), figure_of(range.low), figure_of(range.high));
 }
@@ -148,9 +148,9 @@ std::string diagnostics_html(const SearchLog& log, const std::vector<NamedCount>
       matrix.add(name, i);
     }
   }
-  std::string html = "<table class=\"gauges\">\n<thead><tr><th scope=\"col\">gauge</th><th scope=\"col\">over the "
+  std::string html = "<div class=\"scroll\"><table class=\"gauges\">\n<thead><tr><th scope=\"col\">gauge</th><th scope=\"col\">over the "
                      "evaluations</th><th scope=\"col\">at the end</th><th scope=\"col\">range</th></tr></thead>\n<tbody>\n" +
-                     curves + "</tbody>\n</table>\n";
+                     curves + "</tbody>\n</table></div>\n";
   if (!matrix.whats.empty()) html += matrix_html(log, matrix);
   return html + counts_html(counts);
 }
