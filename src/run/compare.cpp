@@ -15,19 +15,6 @@ namespace {
 
 constexpr double kLikely = 0.05;  // what chance does so often is not told apart
 
-ContestStart start_of(const CompareRequest& request, const Setup& setup, const RunFolder& folder, int threads) {
-  ContestStart start;
-  start.what = "compare";
-  start.grammar = setup.graph().name;
-  for (const ContestVariant& variant : request.contest.variants) start.names.push_back(variant.name);
-  start.seeds = request.contest.seeds;
-  start.budget = request.contest.budget;
-  start.threads = threads;
-  start.optimum = setup.objective.optimum();
-  start.out = folder.path();
-  return start;
-}
-
 /// Keeps what the summary needs; the best derivation of each variant is kept once.
 void take_outcome(const Contest& contest, ContestOutcome outcome, CompareResult& result) {
   keep_best(result.bests[outcome.variant], outcome);
@@ -113,7 +100,7 @@ std::optional<CompareResult> compare_variants(const CompareRequest& request, Mes
   ContestSetups setups(contest, source);
   Setup& first = setups.first();
   RunFolder folder(request.out, kCompareMarker);
-  observer.started(start_of(request, first, folder, executor->workers()));
+  observer.started(contest_start("compare", request.contest, first, folder.path(), executor->workers()));
   CompareResult result;
   result.grammar = first.graph().name, result.optimum = first.objective.optimum();
   result.threads = executor->workers(), result.folder = folder.path();

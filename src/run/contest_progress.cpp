@@ -138,4 +138,18 @@ std::string plan_in_words(const ContestStart& start) {
 std::unique_ptr<ContestObserver> make_contest_bar(std::ostream& out) { return std::make_unique<ContestBar>(out); }
 std::unique_ptr<ContestObserver> make_contest_lines(std::ostream& out) { return std::make_unique<ContestLines>(out); }
 
+ContestStart contest_start(const char* what, const Contest& contest, const Setup& setup, const std::string& out,
+                           int threads) {
+  ContestStart start;
+  start.what = what;
+  start.grammar = setup.graph().name;
+  for (const ContestVariant& variant : contest.variants) start.names.push_back(variant.name);
+  start.seeds = contest.seeds;
+  start.budget = contest.budget;
+  start.threads = threads;
+  start.optimum = setup.objective.optimum();
+  start.out = out;
+  return start;
+}
+
 }  // namespace espalier

@@ -21,6 +21,10 @@ struct ContestStart {
   std::string out;
 };
 
+/// What is known before the first search. `what`: "compare" or "sweep".
+ContestStart contest_start(const char* what, const Contest& contest, const Setup& setup, const std::string& out,
+                           int threads);
+
 class ContestObserver : public ContestWatcher {
  public:
   virtual void started(const ContestStart&) {}

@@ -15,19 +15,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostSteps = 512;  // kept of a search: more than a chart shows
 
-ContestStart start_of(const SweepRequest& request, const Setup& setup, const RunFolder& folder, int threads) {
-  ContestStart start;
-  start.what = "sweep";
-  start.grammar = setup.graph().name;
-  for (const ContestVariant& variant : request.contest.variants) start.names.push_back(variant.name);
-  start.seeds = request.contest.seeds;
-  start.budget = request.contest.budget;
-  start.threads = threads;
-  start.optimum = setup.objective.optimum();
-  start.out = folder.path();
-  return start;
-}
-
 std::vector<StepReport> thinned(const std::vector<StepReport>& steps) {
   Thinned<StepReport> few(kMostSteps);
   for (const StepReport& step : steps) few.add(step.step - 1, step);
@@ -93,7 +80,7 @@ std::optional<SweepResult> sweep_settings(const SweepRequest& request, MeshSourc
   ContestSetups setups(contest, source);
   Setup& first = setups.first();
   RunFolder folder(request.out, kSweepMarker);
-  observer.started(start_of(request, first, folder, executor->workers()));
+  observer.started(contest_start("sweep", request.contest, first, folder.path(), executor->workers()));
   SweepResult result;
   result.grammar = first.graph().name, result.optimum = first.objective.optimum();
   result.threads = executor->workers(), result.folder = folder.path();

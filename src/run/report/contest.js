@@ -1,30 +1,5 @@
-// What pages of contests share: their data, errors, copying, numbers as people read them.
-"use strict";
-const page = {
-  errors: [],
-  parts: {charts: null, pictures: null},  // null while it is being made, "" when it is well, else what is wrong
-  byId: (id) => document.getElementById(id),
-  data: null,
-};
-
-addEventListener("error", (event) => {
-  page.errors.push(event.message || "an error");
-  page.report();
-});
-
-// Tells, for tests and for the curious, whether everything came up: <html data-ready="ok" or what went wrong>.
-page.report = () => {
-  const parts = Object.entries(page.parts);
-  if (!page.errors.length && parts.some(([, problem]) => problem === null)) return;
-  const problems = parts.filter(([, problem]) => problem).map(([name, problem]) => name + ": " + problem);
-  document.documentElement.dataset.ready = problems.concat(page.errors).join("; ") || "ok";
-};
-page.done = (part, problem = "") => {
-  page.parts[part] = problem;
-  page.report();
-};
-
-page.data = JSON.parse(page.byId("data").textContent);
+// What pages of contests share: copying, numbers as people read them.
+for (const part of ["charts", "pictures"]) page.parts[part] = null;
 
 page.readable = (value) => {
   const size = Math.abs(value), digits = size >= 1000 ? 0 : size >= 10 ? 1 : size >= 1 ? 2 : 4;
