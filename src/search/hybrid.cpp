@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_set>
 
 #include <fmt/format.h>
@@ -73,8 +74,7 @@ const Individual& HybridEngine::best() const {
 
 void HybridEngine::step() {
   if (course_.steps > 0 && turn_is_over()) {
-    const Stage next = next_stage();
-    if (next != course_.stage) hand_over(next);
+    end_turn();
     begin_turn();
   }
   engine_->step();
@@ -88,6 +88,31 @@ bool HybridEngine::turn_is_over() const {
   return start.sweeps() >= settings_.sweeps || start.evaluations() >= settings_.start_evaluations;
 }
 
+void HybridEngine::end_turn() {
+  if (course_.afresh && !has_settled()) return;
+  const Stage next = course_.afresh ? Stage::middle : next_stage();
+  course_.afresh = false;
+  if (course_.stalled >= kStalledTurns && course_.handovers < kMostHandovers) return begin_afresh();
+  if (next == course_.stage) return;
+  hand_over(next, heirs(next == Stage::middle ? settings_.middle.population : settings_.end.chains));
+}
+
+/// Whether RJMCMC, begun anew, no longer finds anything better than it has itself.
+bool HybridEngine::has_settled() {
+  const double best = engine_->best().score;
+  course_.settled = best > course_.fresh_best ? 0 : course_.settled + 1;
+  course_.fresh_best = best;
+  return course_.settled >= kSettledTurns;
+}
+
+void HybridEngine::begin_afresh() {
+  hand_over(Stage::end, problem_.locks.empty() ? std::vector<Individual>() : problem_.founders);
+  course_.afresh = true;
+  course_.stalled = course_.settled = 0;
+  course_.fresh_best = -std::numeric_limits<double>::infinity();
+  ++course_.fresh_starts;
+}
+
 /// Who goes on. A gain of long ago is a hope, not a fact: whoever was tried on it and did worse waits twice as long.
 HybridEngine::Stage HybridEngine::next_stage() {
   if (course_.stage == Stage::start) return Stage::middle;
@@ -95,6 +120,7 @@ HybridEngine::Stage HybridEngine::next_stage() {
   Standing &mine = standing(course_.stage), &other = standing(rival);
   mine.ran = true;
   mine.gain = (best_.score - course_.turn_best) / static_cast<double>(evaluations() - course_.turn_begun);
+  course_.stalled = mine.gain > 0 ? 0 : course_.stalled + 1;
   if (course_.on_trial) mine.wait = mine.gain < other.gain ? std::min(2 * mine.wait, kLongestWait) : 1;
   ++other.rests;
   if (course_.handovers == kMostHandovers) return course_.stage;
@@ -109,10 +135,10 @@ void HybridEngine::begin_turn() {
   course_.turn_begun = evaluations();
 }
 
-void HybridEngine::hand_over(Stage to) {
+void HybridEngine::hand_over(Stage to, std::vector<Individual> founders) {
   const std::span<const Individual> population = engine_->population();
   if (course_.stage == Stage::middle) bred_.assign(population.begin(), population.end());
-  founders_ = heirs(to == Stage::middle ? settings_.middle.population : settings_.end.chains);
+  founders_ = std::move(founders);
   counts_[static_cast<std::size_t>(course_.stage)] = counts_of(course_.stage);
   course_.evaluations_before += engine_->evaluations();
   course_.on_trial = course_.stage != Stage::start && standing(to).gain < standing(course_.stage).gain;
@@ -173,7 +199,7 @@ std::vector<NamedCount> HybridEngine::counts_of(Stage stage) const {
 }
 
 std::vector<NamedCount> HybridEngine::diagnostics() const {
-  std::vector<NamedCount> all = {{"handovers", course_.handovers}};
+  std::vector<NamedCount> all = {{"handovers", course_.handovers}, {"fresh starts", course_.fresh_starts}};
   for (std::size_t i = 0; i < counts_.size(); ++i) {
     for (const NamedCount& count : counts_of(static_cast<Stage>(i))) {
       all.push_back({fmt::format("{}: {}", kStages[i], count.name), count.value});

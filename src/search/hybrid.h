@@ -2,7 +2,8 @@
 // Hybrid: SOSMC for the start, then the genetic algorithm and RJMCMC in turns, each beginning with what the others
 // found (handing over is the future work of ShapeGenetics 2017, section 9). SOSMC hands over after its first sweeps or so
 // many evaluations. Then whichever of the other two raised the best more per evaluation in its last turn goes on; the
-// other is tried again now and then, more rarely each time that it does worse. All of it counts evaluations.
+// other is tried again now and then, more rarely each time that it does worse. When neither gains, RJMCMC begins anew
+// elsewhere until it has settled, and what it found joins the others. All of it counts evaluations.
 
 #include <array>
 #include <cstdint>
@@ -37,7 +38,7 @@ class HybridEngine final : public Engine {
   void load(std::istream& in) override;
 
   Stage stage() const { return course_.stage; }
-  /// How often an engine has taken over from another.
+  /// How often an engine has taken over from another, or begun anew.
   std::uint64_t handovers() const { return course_.handovers; }
 
  private:
@@ -58,6 +59,11 @@ class HybridEngine final : public Engine {
     double turn_best = 0;                  // when the turn began
     std::uint64_t turn_begun = 0;          // evaluations then
     bool on_trial = false;                 // whoever has the turn did worse when it last had one
+    std::uint64_t stalled = 0;             // turns in a row in which the best did not rise
+    bool afresh = false;                   // RJMCMC runs, begun anew
+    double fresh_best = 0;                 // its own, when the turn began
+    std::uint64_t settled = 0;             // its turns in a row in which that did not rise
+    std::uint64_t fresh_starts = 0;
     std::array<Standing, 3> standings;
   };
 
@@ -65,8 +71,11 @@ class HybridEngine final : public Engine {
   std::uint32_t lane() const;
   bool turn_is_over() const;
   Stage next_stage();
+  void end_turn();
+  bool has_settled();
+  void begin_afresh();
   void begin_turn();
-  void hand_over(Stage to);
+  void hand_over(Stage to, std::vector<Individual> founders);
   std::vector<Individual> heirs(std::size_t most);
   bool make_heir(Individual& heir, std::size_t place) const;
   void score(const std::vector<std::size_t>& which, std::vector<Individual>& individuals);
@@ -75,6 +84,8 @@ class HybridEngine final : public Engine {
   std::string own_fingerprint() const;
   static constexpr std::uint64_t kMostHandovers = 65'535;  // each has random streams of its own; then nobody takes over
   static constexpr std::uint64_t kLongestWait = 32;        // turns
+  static constexpr std::uint64_t kStalledTurns = 10;       // then RJMCMC begins anew
+  static constexpr std::uint64_t kSettledTurns = 4;        // then what it found joins the others
 
   static void write_course(StateWriter& writer, const Course& course);
   static Course read_course(StateReader& reader);

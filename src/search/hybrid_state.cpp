@@ -12,7 +12,7 @@ namespace espalier {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x0a59'4850'5345ull;  // the bytes "ESPHY\n"
-constexpr std::uint64_t kStateVersion = 3;
+constexpr std::uint64_t kStateVersion = 4;
 
 void write_individuals(StateWriter& writer, const std::vector<Individual>& individuals) {
   writer.u64(individuals.size());
@@ -29,6 +29,11 @@ void HybridEngine::write_course(StateWriter& writer, const Course& course) {
   writer.f64(course.turn_best);
   writer.u64(course.turn_begun);
   writer.u64(course.on_trial);
+  writer.u64(course.stalled);
+  writer.u64(course.afresh);
+  writer.f64(course.fresh_best);
+  writer.u64(course.settled);
+  writer.u64(course.fresh_starts);
   for (const Standing& standing : course.standings) {
     writer.u64(standing.ran);
     writer.f64(standing.gain);
@@ -46,6 +51,11 @@ HybridEngine::Course HybridEngine::read_course(StateReader& reader) {
   course.turn_best = reader.f64();
   course.turn_begun = reader.u64();
   course.on_trial = reader.u64_at_most(1, "trial") != 0;
+  course.stalled = reader.u64();
+  course.afresh = reader.u64_at_most(1, "whether it began anew") != 0;
+  course.fresh_best = reader.f64();
+  course.settled = reader.u64();
+  course.fresh_starts = reader.u64();
   for (Standing& standing : course.standings) {
     standing.ran = reader.u64_at_most(1, "whether an engine ran") != 0;
     standing.gain = reader.f64();

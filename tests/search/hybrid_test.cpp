@@ -117,6 +117,29 @@ TEST(Hybrid, TheOneThatGainsMoreGoesOn) {
   }
 }
 
+// Where nothing gains any more, RJMCMC begins anew, with models that no one had, and what is best stays.
+TEST(Hybrid, WhereAllHaveStalledItBeginsAnew) {
+  class FlatScorer final : public BatchScorer {
+   public:
+    void score(std::span<const Derivation* const>, std::span<double> scores) override {
+      std::fill(scores.begin(), scores.end(), 1.0);
+    }
+    double optimum() const override { return 100; }
+  } scorer;
+  HybridEngine engine({testing::with_bones(*testing::twig_graph()), {}, &scorer, 4, 0, {}}, small_settings());
+  while (count_of(engine, "fresh starts") == 0) {
+    engine.step();
+    ASSERT_LT(engine.evaluations(), 40 * small_settings().turn);
+  }
+  EXPECT_EQ(engine.stage(), Stage::end);
+  const std::uint64_t began = engine.evaluations();
+  while (engine.stage() == Stage::end) engine.step();
+  EXPECT_GT(engine.evaluations(), began + 3 * small_settings().turn) << "until it has settled";
+  while (count_of(engine, "fresh starts") < 3) engine.step();
+  EXPECT_LT(engine.evaluations(), 80 * small_settings().turn);
+  EXPECT_EQ(engine.best().score, 1);
+}
+
 TEST(Hybrid, SameSeedSameCourse) {
   Bench a, b;
   EXPECT_EQ(log_of(a.engine, 200), log_of(b.engine, 200));
