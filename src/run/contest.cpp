@@ -6,6 +6,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "run/budget.h"
 #include "run/model_files.h"
 
 namespace espalier {
@@ -18,14 +19,6 @@ struct Contender {
   Rises rises;
   bool over = false;
 };
-
-// Empty: go on.
-std::string budget_spent(const SceneBudget& budget, const StepReport& report) {
-  if (budget.generations && report.step >= *budget.generations) return "generations";
-  if (budget.evaluations && report.evaluations >= *budget.evaluations) return "evaluations";
-  if (budget.seconds && report.seconds >= *budget.seconds) return "seconds";
-  return "";
-}
 
 double share_spent(const SceneBudget& budget, const StepReport& report) {
   double share = 0;

@@ -33,6 +33,7 @@ struct StepReport {
   double seconds = 0;  // since the first step began
   double best = 0;     // ever
   double mean = 0;     // of the population
+  std::uint64_t idle = 0;  // steps in a row, up to this one, in which nothing was scored
 };
 
 struct RunEnd {
@@ -45,7 +46,7 @@ struct RunEnd {
   double spread = 0;        // mean distance of any two of the best and these
   std::uint64_t steps = 0, evaluations = 0;
   double seconds = 0;
-  std::string stopped_by;  // "seconds", "evaluations", "generations" or "interrupt"
+  std::string stopped_by;  // as budget_spent (run/budget.h) says, or "interrupt"
 };
 
 class RunObserver {

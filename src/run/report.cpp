@@ -73,6 +73,7 @@ std::string status(const ReportInput& input) {
 std::string ended_by(const std::string& reason) {
   if (reason == "interrupt") return "stopped by hand";
   if (reason.empty()) return "going on";
+  if (reason == "nothing left to try") return "ended: there was nothing left to try";
   return "ended by its budget of " + reason;
 }
 

@@ -14,6 +14,7 @@ void write_report(StateWriter& writer, const StepReport& report) {
   writer.f64(report.seconds);
   writer.f64(report.best);
   writer.f64(report.mean);
+  writer.u64(report.idle);
 }
 
 StepReport read_report(StateReader& reader) {
@@ -23,6 +24,7 @@ StepReport read_report(StateReader& reader) {
   report.seconds = reader.f64();
   report.best = reader.f64();
   report.mean = reader.f64();
+  report.idle = reader.u64();
   return report;
 }
 

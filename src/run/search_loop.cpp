@@ -1,5 +1,7 @@
 #include "run/search_loop.h"
 
+#include "run/budget.h"
+
 namespace espalier {
 namespace {
 
@@ -7,11 +9,7 @@ namespace {
 std::string reason_to_stop(const SearchControl& control, const StepReport& report) {
   if (control.stop && control.stop->load()) return "interrupt";
   if (control.exact_steps) return report.step >= *control.exact_steps ? "steps" : "";
-  const SceneBudget& budget = control.budget;
-  if (budget.generations && report.step >= *budget.generations) return "generations";
-  if (budget.evaluations && report.evaluations >= *budget.evaluations) return "evaluations";
-  if (budget.seconds && report.seconds >= *budget.seconds) return "seconds";
-  return "";
+  return budget_spent(control.budget, report);
 }
 
 }  // namespace

@@ -35,8 +35,9 @@ const StepReport& SearchSession::step() {
   CHECK(!finished_);
   watch_.go();
   engine_->step();
+  const std::uint64_t idle = engine_->evaluations() == last_.evaluations ? last_.idle + 1 : 0;
   last_ = {engine_->steps(), engine_->evaluations(), watch_.seconds(), engine_->best().score,
-           mean_score(engine_->population())};
+           mean_score(engine_->population()), idle};
   if (last_.step % kStepsPerOffer == 1) archive_.offer(engine_->population());
   log_.add(last_);
   if (log_.wants_gauges(last_.step)) log_.add_gauges(last_, gauges());

@@ -15,7 +15,7 @@ namespace espalier {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x0a53'5345'5350'5345ull;  // the bytes "ESPSESS\n"
-constexpr std::uint64_t kStateVersion = 1;
+constexpr std::uint64_t kStateVersion = 2;
 
 void write_archive(StateWriter& writer, const DiverseArchive& archive) {
   writer.u64(archive.members().size());

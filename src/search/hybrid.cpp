@@ -83,7 +83,10 @@ void HybridEngine::step() {
 }
 
 bool HybridEngine::turn_is_over() const {
-  if (course_.stage != Stage::start) return evaluations() - course_.turn_begun >= settings_.turn;
+  if (course_.stage != Stage::start) {
+    // Steps too: where all is locked or known, nothing is evaluated.
+    return std::max(evaluations() - course_.turn_begun, course_.steps - course_.turn_first_step) >= settings_.turn;
+  }
   const auto& start = static_cast<const SmcEngine&>(*engine_);
   return start.sweeps() >= settings_.sweeps || start.evaluations() >= settings_.start_evaluations;
 }
@@ -119,7 +122,8 @@ HybridEngine::Stage HybridEngine::next_stage() {
   const Stage rival = course_.stage == Stage::middle ? Stage::end : Stage::middle;
   Standing &mine = standing(course_.stage), &other = standing(rival);
   mine.ran = true;
-  mine.gain = (best_.score - course_.turn_best) / static_cast<double>(evaluations() - course_.turn_begun);
+  const std::uint64_t spent = std::max<std::uint64_t>(evaluations() - course_.turn_begun, 1);
+  mine.gain = (best_.score - course_.turn_best) / static_cast<double>(spent);
   course_.stalled = mine.gain > 0 ? 0 : course_.stalled + 1;
   if (course_.on_trial) mine.wait = mine.gain < other.gain ? std::min(2 * mine.wait, kLongestWait) : 1;
   ++other.rests;
@@ -133,6 +137,7 @@ HybridEngine::Stage HybridEngine::next_stage() {
 void HybridEngine::begin_turn() {
   course_.turn_best = best_.score;
   course_.turn_begun = evaluations();
+  course_.turn_first_step = course_.steps;
 }
 
 void HybridEngine::hand_over(Stage to, std::vector<Individual> founders) {

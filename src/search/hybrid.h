@@ -58,6 +58,7 @@ class HybridEngine final : public Engine {
     std::uint64_t handovers = 0;
     double turn_best = 0;                  // when the turn began
     std::uint64_t turn_begun = 0;          // evaluations then
+    std::uint64_t turn_first_step = 0;     // steps then
     bool on_trial = false;                 // whoever has the turn did worse when it last had one
     std::uint64_t stalled = 0;             // turns in a row in which the best did not rise
     bool afresh = false;                   // RJMCMC runs, begun anew

@@ -28,6 +28,7 @@ void HybridEngine::write_course(StateWriter& writer, const Course& course) {
   writer.u64(course.handovers);
   writer.f64(course.turn_best);
   writer.u64(course.turn_begun);
+  writer.u64(course.turn_first_step);
   writer.u64(course.on_trial);
   writer.u64(course.stalled);
   writer.u64(course.afresh);
@@ -50,6 +51,7 @@ HybridEngine::Course HybridEngine::read_course(StateReader& reader) {
   course.handovers = reader.u64_at_most(kMostHandovers, "handovers");
   course.turn_best = reader.f64();
   course.turn_begun = reader.u64();
+  course.turn_first_step = reader.u64();
   course.on_trial = reader.u64_at_most(1, "trial") != 0;
   course.stalled = reader.u64();
   course.afresh = reader.u64_at_most(1, "whether it began anew") != 0;

@@ -213,5 +213,22 @@ TEST(SceneStart, IsWrittenAndReadAgain) {
   EXPECT_EQ(parse_scene(to_toml(scene), "w", "").start, scene.start);
 }
 
+// Where all is locked nothing is ever scored again: a budget of evaluations would never be spent.
+TEST_F(Starting, WhereAllIsLockedTheSearchEnds) {
+  const std::string root = format_gene_path(*graph_, {});
+  for (const char* engine : {"ga", "rjmcmc"}) {
+    ASSERT_TRUE(run("end", {"start.derivation=first/best.derivation.json", "start.locks=[\"" + root + "\"]",
+                            "search.engine=" + std::string(engine), "budget={evaluations = 1000000}"}))
+        << engine;
+    const auto result = nlohmann::json::parse(read_text(folder_ / "end/result.json"));
+    EXPECT_EQ(result["stopped_by"], "nothing left to try") << engine;
+    EXPECT_LT(result["steps"], 5000) << engine;
+    EXPECT_EQ(best_of(folder_ / "end"), best_of(folder_ / "first")) << engine;
+  }
+  // The hybrid's engines score a population whenever they take over.
+  ASSERT_TRUE(run("end", {"start.derivation=first/best.derivation.json", "start.locks=[\"" + root + "\"]",
+                          "search.engine=hybrid", "engine.hybrid.turn=100", "budget={evaluations = 1500}"}));
+}
+
 }  // namespace
 }  // namespace espalier
