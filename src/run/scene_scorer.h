@@ -1,5 +1,5 @@
 #pragma once
-// SceneScorer: scores batches on an executor, one expander, model and scratch per worker. Sessions keep what the targets
+// SceneScorer: scores batches on an executor, one expander, model and scratch per worker. Sessions keep what targets
 // remember of a state; they are of use where a target has sessions (volumes), and share a budget of memory.
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 namespace espalier {
 
 /// For all sessions of a scorer at one time; chains beyond it have none. 50 chains on a grid of 100 x 200 x 100 voxels
-/// take 131 MB at most.
+/// take 192 MB at most.
 inline constexpr std::size_t kSessionBytes = std::size_t{1} << 30;
 
 class SceneScorer final : public BatchScorer {

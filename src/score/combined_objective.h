@@ -22,7 +22,7 @@ class Objective {
     std::vector<double> scores_;
   };
 
-  /// What is remembered of one state of a search: its parts, and what the targets make of them. Of one thread at a time.
+  /// What is remembered of one state of a search: its parts, and what targets make of them. Of one thread at a time.
   class Session {
    public:
     explicit Session(const Objective& objective);

@@ -14,8 +14,8 @@
 
 namespace espalier {
 
-/// Up to 2^kCountPlanes - 1 parts per voxel.
-inline constexpr std::size_t kCountPlanes = 4;
+/// Up to 2^kCountPlanes - 1 parts per voxel: the balls that stand for a tree's leaves lie dozens deep.
+inline constexpr std::size_t kCountPlanes = 6;
 
 struct CountingCanvas {
   static constexpr std::size_t kTileWords = 8 * kCountPlanes;

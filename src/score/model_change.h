@@ -1,6 +1,6 @@
 #pragma once
-// ModelChange: how one model differs from another, as targets see it. Derivations are in depth-first order, so that what
-// a proposal changes is most often one slice of the instances.
+// ModelChange: how one model differs from another, as targets see it. Derivations are in depth-first order, so that
+// what a proposal changes is most often one slice of the instances.
 
 #include <cstddef>
 #include <span>

@@ -16,8 +16,8 @@ namespace espalier {
 /// The score of what is not acceptable.
 inline constexpr double kNotAcceptable = -std::numeric_limits<double>::infinity();
 
-/// What a scorer remembers of one state of a chain, to score proposals by their difference from it. Not to be used while
-/// its scorer scores.
+/// What a scorer remembers of one state of a chain, to score proposals by their difference from it. Not to be used
+/// while its scorer scores.
 class ScoreSession {
  public:
   virtual ~ScoreSession() = default;

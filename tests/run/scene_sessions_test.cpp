@@ -1,11 +1,11 @@
 // Sessions of a scene: chains of the engine's own proposals on shipped grammars, and whole searches, against the same
 // without sessions. Every score and every byte must be the same.
-#include <filesystem>
+#include <algorithm>
+#include <cctype>
 
 #include <gtest/gtest.h>
 
 #include "derivation/moves.h"
-#include "derivation/nudge.h"
 #include "derivation/proposal.h"
 #include "derivation/sample.h"
 #include "io/mesh_import.h"
@@ -18,14 +18,11 @@
 namespace espalier {
 namespace {
 
-using testing::gauges_of;
 using testing::log_of;
 
-/// A shipped scene; `volume`: with a volume to fill in place of its silhouettes.
-std::unique_ptr<Setup> load(const std::string& scene, const std::vector<std::string>& changes = {}) {
+std::unique_ptr<Setup> load(const std::string& scene) {
   AssimpMeshSource source;
-  const std::string path = std::string(ESPALIER_SOURCE_DIR) + "/scenes/" + scene;
-  return set_up(load_scene(path, {changes, {}}), source);
+  return set_up(load_scene(std::string(ESPALIER_SOURCE_DIR) + "/scenes/" + scene), source);
 }
 
 Derivation large(const GeneratorGraph& graph, std::size_t genes, RandomStream& random) {
@@ -120,7 +117,7 @@ struct Search {
         scorer(setup.graph(), setup.objective, *executor,
                sessions == Sessions::some ? 3 * setup.objective.session_bytes() : kSessionBytes),
         whole(scorer),
-        engine({setup.grammar.graph, {}, sessions == Sessions::none ? static_cast<BatchScorer*>(&whole) : &scorer, 5, 0},
+        engine({setup.grammar.graph, {}, sessions == Sessions::none ? &whole : static_cast<BatchScorer*>(&scorer), 5},
                settings(tempered)) {}
 
   std::unique_ptr<Executor> executor;

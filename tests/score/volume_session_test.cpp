@@ -86,7 +86,7 @@ struct Chain {
 int expect_equal_scores(std::uint32_t number, int steps, float size) {
   Dice dice(number);
   Chain chain(settings_of(number));
-  chain.state = random_parts(dice, 20 + dice.below(40), size);
+  chain.state = random_parts(dice, 40 + dice.below(40), size);
   for (int step = 0; step < steps; ++step) {
     Model next;
     next.instances = propose(dice, chain.state, size);
@@ -94,7 +94,7 @@ int expect_equal_scores(std::uint32_t number, int steps, float size) {
     if (dice.chance(0.4)) chain.commit(next);
     if (dice.chance(0.02)) chain.session->restart();
     if (dice.chance(0.01)) {
-      chain.state = random_parts(dice, 30, size);
+      chain.state = random_parts(dice, 50, size);
       chain.session->restart();
     }
   }
@@ -119,7 +119,9 @@ TEST(VolumeSession, EveryInstructionSetScoresAsWholeModelsDo) {
   use_kernel_path("");
 }
 
-/// A grid of 10 x 10 x 10 cubes, `wanted` 4 x 4 x 4 of them; 16 boxes beside each other.
+constexpr std::size_t kMost = (std::size_t{1} << kCountPlanes) - 1;  // parts on each other
+
+/// A grid of 10 x 10 x 10 cubes, `wanted` 4 x 4 x 4 of them; 32 boxes beside each other.
 VolumeSettings cubes() {
   VolumeSettings s;
   s.grid = {Vec3(0), Vec3(10), {10, 10, 10}};
@@ -130,8 +132,8 @@ VolumeSettings cubes() {
 
 std::vector<Instance> row_of_boxes(float z) {
   std::vector<Instance> parts;
-  for (int i = 0; i < 16; ++i) {
-    const Vec3 low(static_cast<float>(i % 8), static_cast<float>(i / 8 * 4), z);
+  for (int i = 0; i < 32; ++i) {
+    const Vec3 low(static_cast<float>(i % 8), static_cast<float>(i / 8 * 2), z);
     parts.push_back(part(kBox, box_frame(low, low + Vec3(1, 1, 2))));
   }
   return parts;
@@ -143,10 +145,10 @@ TEST(VolumeSession, CountsByHand) {
   Model next;
   next.instances = chain.state;
   next.instances[0].model_from_mesh.origin.x += 4;  // out of the target, onto the box there
-  EXPECT_EQ(chain.by_change(next), 6.0 - 24 - 0.25 * 2);  // 6 voxels inside, 30 covered
+  EXPECT_EQ(chain.by_change(next), 14.0 - 48 - 0.25 * 2);  // 14 voxels inside, 62 covered
   EXPECT_TRUE(chain.session->counted_change());
   next.instances = chain.state;
-  EXPECT_EQ(chain.by_change(next), 8.0 - 24);
+  EXPECT_EQ(chain.by_change(next), 16.0 - 48);
   EXPECT_TRUE(chain.session->counted_change());
 }
 
@@ -154,13 +156,13 @@ TEST(VolumeSession, ScoresPilesThatItCannotCountAsAWhole) {
   Chain chain(cubes());
   chain.state = row_of_boxes(0);
   Model next;
-  for (int piled = 1; piled < 40; ++piled) {  // always one more on the first voxels, in a model that grows
+  for (std::size_t piled = 1; piled < kMost + 25; ++piled) {  // in a model that grows
     next.instances = chain.state;
     const std::vector<Instance> more = row_of_boxes(4);
     next.instances.insert(next.instances.end(), more.begin(), more.begin() + 3);
     next.instances.push_back(chain.state[0]);
     ASSERT_EQ(chain.by_change(next), chain.whole(next)) << piled;
-    EXPECT_EQ(chain.session->counted_change(), piled <= 14) << piled;  // 15 on each other
+    EXPECT_EQ(chain.session->counted_change(), piled < kMost) << piled;
     chain.commit(next);
   }
 }
@@ -171,7 +173,7 @@ TEST(VolumeSession, GoesOnCountingOnceAPileIsGone) {
   const auto pile = [&](std::size_t count) {
     Model model;
     model.instances = chain.state;
-    model.instances.resize(16);
+    model.instances.resize(32);
     for (std::size_t i = 0; i < count; ++i) model.instances.push_back(chain.state[0]);
     return model;
   };
@@ -181,14 +183,13 @@ TEST(VolumeSession, GoesOnCountingOnceAPileIsGone) {
     chain.commit(model);
     return counted;
   };
-  EXPECT_TRUE(score_and_commit(pile(7)));
-  EXPECT_TRUE(score_and_commit(pile(14)));   // 15 on each other
-  EXPECT_FALSE(score_and_commit(pile(15)));  // too many
-  EXPECT_FALSE(score_and_commit(pile(16)));
+  for (std::size_t piled = 1; piled < kMost; ++piled) EXPECT_TRUE(score_and_commit(pile(piled)));
+  EXPECT_FALSE(score_and_commit(pile(kMost)));  // and the one below
+  EXPECT_FALSE(score_and_commit(pile(kMost + 1)));
   int waited = 0;
-  while (waited < 200 && !score_and_commit(pile(14 - static_cast<std::size_t>(waited) % 2))) ++waited;
+  while (waited < 200 && !score_and_commit(pile(kMost - 1))) ++waited;
   EXPECT_LT(waited, 70);
-  EXPECT_TRUE(score_and_commit(pile(14)));
+  EXPECT_TRUE(score_and_commit(pile(kMost - 1)));
 }
 
 TEST(VolumeSession, SmallModelsAndLargeChangesAreScoredAsAWhole) {
@@ -206,17 +207,17 @@ TEST(VolumeSession, SmallModelsAndLargeChangesAreScoredAsAWhole) {
   EXPECT_FALSE(chain.session->counted_change());
 }
 
-/// Refuses models of more than 20 parts.
+/// Refuses models of more than 42 parts.
 class FewParts final : public Target {
  public:
   const std::string& name() const override { return name_; }
   TargetView view() const override { return TargetView::full; }
   bool may_reject() const override { return true; }
   double score(const Derivation&, const Model& model, TargetScratch*) const override {
-    return model.instances.size() > 20 ? -std::numeric_limits<double>::infinity()
+    return model.instances.size() > 42 ? -std::numeric_limits<double>::infinity()
                                        : 0.01 * static_cast<double>(model.instances.size());
   }
-  double optimum() const override { return 0.2; }
+  double optimum() const override { return 0.42; }
   Explanation explain(const Derivation&, const Model&, TargetScratch*) const override { return {}; }
 
  private:
@@ -233,7 +234,7 @@ TEST(ObjectiveSession, ScoresAsTheObjectiveDoesAlongAChain) {
   Objective::Scratch scratch(objective), other(objective);
   Objective::Session session(objective);
   Model state;
-  state.instances = random_parts(dice, 18, 0.6f);
+  state.instances = random_parts(dice, 40, 0.6f);
   session.begin(state);
   int counted = 0, refused = 0;
   for (int step = 0; step < 300; ++step) {
@@ -246,7 +247,7 @@ TEST(ObjectiveSession, ScoresAsTheObjectiveDoesAlongAChain) {
       continue;
     }
     counted += session.counted_change();
-    if (next.instances.size() >= 16 && dice.chance(0.5)) session.commit(), state = next;
+    if (next.instances.size() >= 38 && dice.chance(0.5)) session.commit(), state = next;
   }
   EXPECT_GT(counted, 50);
   EXPECT_GT(refused, 20);
