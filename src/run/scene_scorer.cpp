@@ -21,10 +21,30 @@ void add(const std::vector<Rejections>& more, std::vector<Rejections>& all) {
 
 }  // namespace
 
-SceneScorer::SceneScorer(const GeneratorGraph& graph, const Objective& objective, Executor& executor)
+class SceneScorer::Session final : public ScoreSession {
+ public:
+  Session(SceneScorer& scorer, std::size_t bytes) : scorer_(scorer), bytes_(bytes), session(scorer.objective_) {
+    scorer_.bytes_left_ -= bytes_;
+  }
+  ~Session() override { scorer_.bytes_left_ += bytes_; }
+
+  void begin(const Derivation& state) override { session.begin(scorer_.expand(state, scorer_.workers_.front())); }
+  void commit() override { session.commit(); }
+
+ private:
+  SceneScorer& scorer_;
+  std::size_t bytes_;
+
+ public:
+  Objective::Session session;
+};
+
+SceneScorer::SceneScorer(const GeneratorGraph& graph, const Objective& objective, Executor& executor,
+                         std::size_t session_bytes)
     : objective_(objective),
       executor_(executor),
-      view_(objective.view()) {
+      view_(objective.view()),
+      bytes_left_(session_bytes) {
   workers_.reserve(static_cast<std::size_t>(executor.workers()));
   for (int i = 0; i < executor.workers(); ++i) {
     // No target looks at materials.
@@ -47,6 +67,24 @@ void SceneScorer::score(std::span<const Derivation* const> derivations, std::spa
   executor_.for_each(derivations.size(), [&](std::size_t i, int w) {
     Worker& worker = workers_[static_cast<std::size_t>(w)];
     scores[i] = objective_.score(*derivations[i], expand(*derivations[i], worker), worker.scratch);
+  });
+}
+
+std::unique_ptr<ScoreSession> SceneScorer::make_session() {
+  const std::size_t bytes = objective_.session_bytes();
+  if (bytes == 0 || bytes > bytes_left_) return nullptr;
+  return std::make_unique<Session>(*this, bytes);
+}
+
+void SceneScorer::score_proposals(std::span<const ScoreProposal> proposals, std::span<double> scores) {
+  CHECK(proposals.size() == scores.size());
+  executor_.for_each(proposals.size(), [&](std::size_t i, int w) {
+    Worker& worker = workers_[static_cast<std::size_t>(w)];
+    const Derivation& derivation = *proposals[i].derivation;
+    const Model& model = expand(derivation, worker);
+    auto* const own = static_cast<Session*>(proposals[i].session);
+    scores[i] = own == nullptr ? objective_.score(derivation, model, worker.scratch)
+                               : objective_.score(derivation, model, worker.scratch, own->session);
   });
 }
 

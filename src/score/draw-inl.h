@@ -1,5 +1,5 @@
-// Drawing spans into the canvas, tile by tile. A part wholly inside the grid is drawn plainly; others are also counted
-// beyond it. Included once per target.
+// Drawing spans into a canvas (plain or counting), tile by tile. A part wholly inside the grid is drawn plainly; others
+// are also counted beyond it. Included once per target.
 
 #if defined(ESPALIER_SCORE_DRAW_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ESPALIER_SCORE_DRAW_INL_H
@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "score/counting_canvas.h"
 #include "score/spans-inl.h"
 #include "score/voxel_canvas.h"
 
@@ -27,12 +28,43 @@ HWY_INLINE U8 rows_between(std::int32_t tile, std::int32_t low, std::int32_t hig
   return U8::load_anywhere(kEdge + 8 - from) & U8::load_anywhere(kEdge + 16 - to);
 }
 
-/// once |= mask, twice |= what was there already.
-HWY_INLINE void put(const U8& mask, std::uint32_t* once, std::uint32_t* twice) {
-  const U8 had = U8::load(once);
-  (U8::load(twice) | (had & mask)).store(twice);
-  (had | mask).store(once);
-}
+/// Tiles of a plain canvas, one after the other: once |= mask, twice |= what was there already. `ahead` is in words of
+/// the canvas's tiles.
+struct PlainTiles {
+  std::uint32_t *once, *twice;
+
+  HWY_INLINE PlainTiles(VoxelCanvas& canvas, std::size_t at)
+      : once(canvas.once.data() + at), twice(canvas.twice.data() + at) {}
+  HWY_INLINE void put(const U8& mask, std::ptrdiff_t ahead = 0) const {
+    const U8 had = U8::load(once + ahead);
+    (U8::load(twice + ahead) | (had & mask)).store(twice + ahead);
+    (had | mask).store(once + ahead);
+  }
+  HWY_INLINE void next() { once += VoxelCanvas::kTileWords, twice += VoxelCanvas::kTileWords; }
+};
+
+/// Tiles of a counting canvas: counts up or down where the mask is set.
+struct CountTiles {
+  std::uint32_t *at, *overflow;
+  U8 flip;  // all bits: down
+
+  HWY_INLINE CountTiles(CountingCanvas& canvas, std::size_t offset)
+      : at(canvas.planes.data() + offset), overflow(canvas.overflow), flip(U8::all(canvas.down ? ~0u : 0)) {}
+  HWY_INLINE void put(const U8& mask, std::ptrdiff_t ahead = 0) const {
+    U8 carry = mask;
+    for (std::size_t plane = 0; plane < kCountPlanes; ++plane) {
+      std::uint32_t* words = at + ahead + plane * 8;
+      const U8 had = U8::load(words);
+      (had ^ carry).store(words);
+      carry = carry & (had ^ flip);
+    }
+    (U8::load(overflow) | carry).store(overflow);
+  }
+  HWY_INLINE void next() { at += CountingCanvas::kTileWords; }
+};
+
+HWY_INLINE PlainTiles tiles_at(VoxelCanvas& canvas, std::size_t at) { return PlainTiles(canvas, at); }
+HWY_INLINE CountTiles tiles_at(CountingCanvas& canvas, std::size_t at) { return CountTiles(canvas, at); }
 
 /// Where in the canvas one part goes. Depths are integers here: F = 32 (top_word + 1) - z.
 struct PartFrame {
@@ -41,7 +73,7 @@ struct PartFrame {
   std::int32_t top_word;               // of `reach`
   std::int32_t first_word, last_word;  // of `grid`; first > last if none
 
-  HWY_INLINE PartFrame(const Reach& part, const VoxelCanvas& canvas) : reach(part), grid(part.in_grid(canvas.lattice)) {
+  HWY_INLINE PartFrame(const Reach& part, const Lattice& lattice) : reach(part), grid(part.in_grid(lattice)) {
     top_word = (reach.high[2] - 1) >> 5;
     first_word = grid.low[2] >> 5;
     last_word = grid.empty() ? first_word - 1 : (grid.high[2] - 1) >> 5;
@@ -49,7 +81,8 @@ struct PartFrame {
   HWY_INLINE bool in_grid(std::int32_t tile) const {
     return !grid.empty() && tile >= tile_of(grid.low[1]) && tile <= tile_of(grid.high[1] - 1);
   }
-  HWY_INLINE void mark(VoxelCanvas& canvas, std::int32_t tile, std::int32_t from, std::int32_t to) const {
+  template <class Canvas>
+  HWY_INLINE void mark(Canvas& canvas, std::int32_t tile, std::int32_t from, std::int32_t to) const {
     for (std::int32_t word = first_word; word <= last_word; ++word) canvas.mark(tile, word, from, to);
   }
 };
@@ -60,36 +93,33 @@ HWY_INLINE U8 bits_of(const I8& high, const I8& low, std::int32_t words_down) {
   return low_bits_but(larger(high - skip, zero)) ^ low_bits_but(larger(low - skip, zero));
 }
 
-/// A tile row of a part inside the grid: `count` tiles from `once` and `twice` on, which point into the row of the top
-/// word; the part's other words lie `stride` lower each. kWords = 0: any number. Returns the voxels per lane.
-template <int kWords, class Spans>
-HWY_INLINE I8 draw_row_inside(std::uint32_t* HWY_RESTRICT once, std::uint32_t* HWY_RESTRICT twice, std::int32_t count,
-                              std::ptrdiff_t stride, std::int32_t words, Spans& spans) {
+/// A tile row of a part inside the grid: `count` tiles from `tiles` on, which begin in the row of the top word; the
+/// part's other words lie `stride` lower each. kWords = 0: any number. Returns the voxels per lane.
+template <int kWords, class Tiles, class Spans>
+HWY_INLINE I8 draw_row_inside(Tiles tiles, std::int32_t count, std::ptrdiff_t stride, std::int32_t words,
+                              Spans& spans) {
   I8 sum = I8::all(0);
-  for (const std::uint32_t* end = once + std::ptrdiff_t{count} * 8; once != end; once += 8, twice += 8) {
+  for (; count > 0; --count, tiles.next()) {
     I8 high, low;
     spans.next(high, low);
     sum = sum - high + low;
-    put(low_bits_but(high) ^ low_bits_but(low), once, twice);
-    if constexpr (kWords == 2) put(bits_of(high, low, 1), once - stride, twice - stride);
+    tiles.put(low_bits_but(high) ^ low_bits_but(low));
+    if constexpr (kWords == 2) tiles.put(bits_of(high, low, 1), -stride);
     if constexpr (kWords == 0) {
-      for (std::int32_t word = 1; word < words; ++word) {
-        put(bits_of(high, low, word), once - word * stride, twice - word * stride);
-      }
+      for (std::int32_t word = 1; word < words; ++word) tiles.put(bits_of(high, low, word), -word * stride);
     }
   }
   return sum;
 }
 
 /// A tile row of a part that leaves the grid: counts all of it, draws what is inside.
-template <class Spans>
-HWY_INLINE void draw_row_counting(const PartFrame& part, VoxelCanvas& canvas, std::int32_t tile, Spans& spans) {
+template <class Canvas, class Spans>
+HWY_INLINE void draw_row_counting(const PartFrame& part, Canvas& canvas, std::int32_t tile, Spans& spans) {
   const std::int32_t base = 32 * (part.top_word + 1);
   const U8 rows = rows_between(tile, 0, canvas.lattice.cells[1]);
   const I8 grid_low = I8::all(base);  // z = 0
   const I8 grid_high = choose(to_int(rows), I8::all(base - canvas.lattice.cells[2]), I8::all(INT32_MAX / 2));
   const bool in_grid = part.in_grid(tile);
-  const std::size_t stride = std::size_t{canvas.nx()} * 8;
   const std::size_t start = in_grid ? canvas.row_offset(tile, part.first_word) : 0;
   if (in_grid) part.mark(canvas, tile, part.grid.low[0], part.grid.high[0]);
   I8 len_window = I8::all(0), len_grid = I8::all(0);
@@ -101,9 +131,9 @@ HWY_INLINE void draw_row_counting(const PartFrame& part, VoxelCanvas& canvas, st
     high = larger(high, grid_high);
     low = larger(smaller(low, grid_low), high);
     len_grid = len_grid + (low - high);
-    std::size_t at = start + static_cast<std::size_t>(x) * 8;
-    for (std::int32_t word = part.first_word; word <= part.last_word; ++word, at += stride) {
-      put(bits_of(high, low, part.top_word - word), canvas.once.data() + at, canvas.twice.data() + at);
+    std::size_t at = start + static_cast<std::size_t>(x) * Canvas::kTileWords;
+    for (std::int32_t word = part.first_word; word <= part.last_word; ++word, at += canvas.row_words()) {
+      tiles_at(canvas, at).put(bits_of(high, low, part.top_word - word));
     }
   }
   canvas.hits += sum_of(len_grid);
@@ -153,22 +183,22 @@ HWY_INLINE void narrow(const Form& form, std::int32_t tile, std::int32_t& from, 
   if (low > high) to = from;
 }
 
-template <class Row, bool kLimited, class Form>
-HWY_NOINLINE void draw_leaving(const Form& form, VoxelCanvas& canvas) {
-  const PartFrame part(form.reach(), canvas);
+template <class Row, bool kLimited, class Form, class Canvas>
+HWY_NOINLINE void draw_leaving(const Form& form, Canvas& canvas) {
+  const PartFrame part(form.reach(), canvas.lattice);
   for (std::int32_t tile = tile_of(part.reach.low[1]); tile <= tile_of(part.reach.high[1] - 1); ++tile) {
     FormSpans<Row, kLimited> spans(form, tile, part.reach.low[0]);
     draw_row_counting(part, canvas, tile, spans);
   }
 }
 
-template <class Row, bool kLimited, class Form>
-HWY_NOINLINE void draw_form(const Form& form, VoxelCanvas& canvas) {
+template <class Row, bool kLimited, class Form, class Canvas>
+HWY_NOINLINE void draw_form(const Form& form, Canvas& canvas) {
   const Reach& reach = form.reach();
   if (!reach.inside(canvas.lattice)) return draw_leaving<Row, kLimited>(form, canvas);
   const std::int32_t first_word = reach.low[2] >> 5, last_word = (reach.high[2] - 1) >> 5;
   const std::int32_t words = last_word - first_word + 1;
-  const auto stride = static_cast<std::ptrdiff_t>(canvas.nx()) * 8;
+  const auto stride = static_cast<std::ptrdiff_t>(canvas.row_words());
   I8 sum = I8::all(0);
   for (std::int32_t tile = tile_of(reach.low[1]); tile <= tile_of(reach.high[1] - 1); ++tile) {
     std::int32_t from, to;
@@ -176,22 +206,22 @@ HWY_NOINLINE void draw_form(const Form& form, VoxelCanvas& canvas) {
     if (from >= to) continue;
     for (std::int32_t word = first_word; word <= last_word; ++word) canvas.mark(tile, word, from, to);
     FormSpans<Row, kLimited> spans(form, tile, from);
-    const std::size_t at = canvas.row_offset(tile, last_word) + static_cast<std::size_t>(from) * 8;
-    std::uint32_t* once = canvas.once.data() + at;
-    std::uint32_t* twice = canvas.twice.data() + at;
-    if (words == 1) sum = sum + draw_row_inside<1>(once, twice, to - from, stride, 1, spans);
-    else if (words == 2) sum = sum + draw_row_inside<2>(once, twice, to - from, stride, 2, spans);
-    else sum = sum + draw_row_inside<0>(once, twice, to - from, stride, words, spans);
+    const std::size_t at = canvas.row_offset(tile, last_word) + static_cast<std::size_t>(from) * Canvas::kTileWords;
+    const auto tiles = tiles_at(canvas, at);
+    if (words == 1) sum = sum + draw_row_inside<1>(tiles, to - from, stride, 1, spans);
+    else if (words == 2) sum = sum + draw_row_inside<2>(tiles, to - from, stride, 2, spans);
+    else sum = sum + draw_row_inside<0>(tiles, to - from, stride, words, spans);
   }
   canvas.hits += sum_of(sum);
 }
 
-template <class Row>
-HWY_INLINE void draw_form_of(const SpanForm& form, VoxelCanvas& canvas) {
+template <class Row, class Canvas>
+HWY_INLINE void draw_form_of(const SpanForm& form, Canvas& canvas) {
   form.limited() ? draw_form<Row, true>(form, canvas) : draw_form<Row, false>(form, canvas);
 }
 
-HWY_INLINE void draw(const SpanForm& form, VoxelCanvas& canvas) {
+template <class Canvas>
+HWY_INLINE void draw(const SpanForm& form, Canvas& canvas) {
   switch (form.quadric()) {
     case Quadric::sphere: return draw_form<SphereRow, false>(form, canvas);
     case Quadric::lens: return draw_form_of<RoundRow<Quadric::lens>>(form, canvas);

@@ -1,10 +1,13 @@
 #pragma once
 // What engines see of scoring: a batch of derivations in, their scores out. Threads, models and targets stay behind it.
+// Chains, whose proposals change little of their state, may have a session each: it saves time and changes no score.
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "derivation/derivation.h"
 
@@ -13,6 +16,23 @@ namespace espalier {
 /// The score of what is not acceptable.
 inline constexpr double kNotAcceptable = -std::numeric_limits<double>::infinity();
 
+/// What a scorer remembers of one state of a chain, to score proposals by their difference from it. Not to be used
+/// while its scorer scores.
+class ScoreSession {
+ public:
+  virtual ~ScoreSession() = default;
+  /// The state is now this one, whatever it was. Before all else.
+  virtual void begin(const Derivation& state) = 0;
+  /// The proposal that was scored last is the state now; at most once for each, and never for what was not acceptable.
+  /// Without it the state stays as it is.
+  virtual void commit() = 0;
+};
+
+struct ScoreProposal {
+  ScoreSession* session = nullptr;  // of the scorer that is asked, begun; null: there is none
+  const Derivation* derivation = nullptr;
+};
+
 class BatchScorer {
  public:
   virtual ~BatchScorer() = default;
@@ -20,6 +40,16 @@ class BatchScorer {
   /// scores[i] = score of *derivations[i]; higher is better. Finite, or kNotAcceptable (beyond a
   /// hard limit): engines never keep that, but redraw it. The same for any number of threads.
   virtual void score(std::span<const Derivation* const> derivations, std::span<double> scores) = 0;
+
+  /// Null where a session is of no use, or there is no memory left for one. The scorer must outlive it.
+  virtual std::unique_ptr<ScoreSession> make_session() { return nullptr; }
+
+  /// scores[i] = score of *proposals[i].derivation: the very same that score() gives. No session may be there twice.
+  virtual void score_proposals(std::span<const ScoreProposal> proposals, std::span<double> scores) {
+    std::vector<const Derivation*> derivations;
+    for (const ScoreProposal& proposal : proposals) derivations.push_back(proposal.derivation);
+    score(derivations, scores);
+  }
 
   /// The best score that any model could have (it need not be reachable).
   virtual double optimum() const = 0;

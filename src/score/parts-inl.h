@@ -20,7 +20,8 @@ namespace espalier {
 namespace HWY_NAMESPACE {
 
 /// Every lattice point of the reach: boxes along the axes, and the inside of huge parts.
-HWY_NOINLINE void draw_block(const Reach& reach, VoxelCanvas& canvas) {
+template <class Canvas>
+HWY_NOINLINE void draw_block(const Reach& reach, Canvas& canvas) {
   const Reach grid = reach.in_grid(canvas.lattice);
   const std::uint64_t in_grid = grid.volume();
   canvas.hits += in_grid;
@@ -32,11 +33,10 @@ HWY_NOINLINE void draw_block(const Reach& reach, VoxelCanvas& canvas) {
     for (std::int32_t word = grid.low[2] >> 5; word <= last; ++word) {
       const std::int32_t from = std::max(grid.low[2] - 32 * word, 0), to = std::min(grid.high[2] - 32 * word, 32);
       const U8 mask = rows & U8::all((~0u >> (32 - (to - from))) << from);
-      const std::size_t row = canvas.row_offset(tile, word);
-      std::uint32_t* once = canvas.once.data() + row;
-      std::uint32_t* twice = canvas.twice.data() + row;
-      for (std::int32_t x = grid.low[0]; x < grid.high[0]; ++x) put(mask, once + x * 8, twice + x * 8);
       canvas.mark(tile, word, grid.low[0], grid.high[0]);
+      const std::size_t from_x = static_cast<std::size_t>(grid.low[0]) * Canvas::kTileWords;
+      auto tiles = tiles_at(canvas, canvas.row_offset(tile, word) + from_x);
+      for (std::int32_t x = grid.low[0]; x < grid.high[0]; ++x, tiles.next()) tiles.put(mask);
     }
   }
 }
@@ -65,9 +65,10 @@ struct ColumnSpans {
   }
 };
 
-HWY_NOINLINE void draw_columns(const ConvexShape& shape, VoxelCanvas& canvas) {
+template <class Canvas>
+HWY_NOINLINE void draw_columns(const ConvexShape& shape, Canvas& canvas) {
   if (shape.fills_reach()) return draw_block(shape.reach, canvas);
-  const PartFrame part(shape.reach, canvas);
+  const PartFrame part(shape.reach, canvas.lattice);
   for (std::int32_t tile = tile_of(part.reach.low[1]); tile <= tile_of(part.reach.high[1] - 1); ++tile) {
     ColumnSpans spans(shape, part, tile);
     draw_row_counting(part, canvas, tile, spans);
@@ -75,7 +76,8 @@ HWY_NOINLINE void draw_columns(const ConvexShape& shape, VoxelCanvas& canvas) {
 }
 
 /// One tile of scanned bits: into the planes where they lie in the grid, counted everywhere.
-HWY_INLINE void draw_scanned(const std::uint32_t* bits, const FacetScan& scan, std::int32_t tile, VoxelCanvas& canvas) {
+template <class Canvas>
+HWY_INLINE void draw_scanned(const std::uint32_t* bits, const FacetScan& scan, std::int32_t tile, Canvas& canvas) {
   const Reach& reach = scan.reach();
   const Reach grid = reach.in_grid(canvas.lattice);
   const std::int32_t beyond = canvas.lattice.cells[2] % 32;
@@ -92,17 +94,15 @@ HWY_INLINE void draw_scanned(const std::uint32_t* bits, const FacetScan& scan, s
       alignas(32) std::uint32_t lane[8];
       mask.store(lane);
       for (const std::uint32_t v : lane) in_grid += static_cast<std::uint64_t>(std::popcount(v));
-      const std::size_t at = canvas.row_offset(tile, word) + static_cast<std::size_t>(x) * 8;
-      put(mask, canvas.once.data() + at, canvas.twice.data() + at);
+      tiles_at(canvas, canvas.row_offset(tile, word) + static_cast<std::size_t>(x) * Canvas::kTileWords).put(mask);
     }
   }
   canvas.hits += in_grid;
   canvas.outside += all - in_grid;
 }
 
-HWY_NOINLINE void draw_facets(const Solid& solid, const GridPlacement& placement, VolumeScratch& scratch) {
-  FacetScan& scan = scratch.scan;
-  VoxelCanvas& canvas = scratch.canvas;
+template <class Canvas>
+HWY_NOINLINE void draw_facets(const Solid& solid, const GridPlacement& placement, FacetScan& scan, Canvas& canvas) {
   if (!scan.begin(solid.mesh, placement, canvas.lattice.low, canvas.lattice.high)) return;
   const Reach& reach = scan.reach();
   const Reach grid = reach.in_grid(canvas.lattice);
@@ -117,11 +117,12 @@ HWY_NOINLINE void draw_facets(const Solid& solid, const GridPlacement& placement
 }
 
 /// A convex part on its own, with all the care that it may need.
+template <class Canvas>
 HWY_NOINLINE void draw_convex(const Solid& solid, const Instance& instance, const GridPlacement& placement,
-                              VolumeScratch& scratch) {
-  if (!scratch.shape.set(scratch.canvas.lattice, solid, placement, instance.top)) return;
-  if (scratch.form.set(scratch.shape)) draw(scratch.form, scratch.canvas);
-  else draw_columns(scratch.shape, scratch.canvas);
+                              VolumeScratch& scratch, Canvas& canvas) {
+  if (!scratch.shape.set(canvas.lattice, solid, placement, instance.top)) return;
+  if (scratch.form.set(scratch.shape)) draw(scratch.form, canvas);
+  else draw_columns(scratch.shape, canvas);
 }
 
 /// One part of a batch, as draw_form sees it.
@@ -168,7 +169,8 @@ struct Waiting {
   int count = 0;
 };
 
-HWY_INLINE void draw_lane(const PartBatch& batch, int lane, SolidKind kind, VoxelCanvas& canvas) {
+template <class Canvas>
+HWY_INLINE void draw_lane(const PartBatch& batch, int lane, SolidKind kind, Canvas& canvas) {
   if (kind == SolidKind::box) return draw_form<SlabRow<3>, false>(LaneForm<3>(batch, lane), canvas);
   if (kind == SolidKind::sphere) return draw_form<SphereRow, false>(LaneForm<1>(batch, lane), canvas);
   const LaneForm<2> form(batch, lane);
@@ -177,8 +179,8 @@ HWY_INLINE void draw_lane(const PartBatch& batch, int lane, SolidKind kind, Voxe
   draw_form<RoundRow<Quadric::down>, false>(form, canvas);
 }
 
-HWY_NOINLINE void draw_batch(Waiting& waiting, const Solid& solid, VolumeScratch& scratch) {
-  VoxelCanvas& canvas = scratch.canvas;
+template <class Canvas>
+HWY_NOINLINE void draw_batch(Waiting& waiting, const Solid& solid, VolumeScratch& scratch, Canvas& canvas) {
   if (waiting.count == 0) return;
   for (int lane = waiting.count; lane < 4; ++lane) waiting.part[lane] = waiting.part[0];
   PartBatch batch;
@@ -193,14 +195,15 @@ HWY_NOINLINE void draw_batch(Waiting& waiting, const Solid& solid, VolumeScratch
     }
     GridPlacement placement;
     if (place(canvas.lattice, waiting.part[lane]->model_from_mesh, placement)) {
-      draw_convex(solid, *waiting.part[lane], placement, scratch);
+      draw_convex(solid, *waiting.part[lane], placement, scratch, canvas);
     }
   }
   waiting.count = 0;
 }
 
 /// True if the part is a box along the axes, which is then drawn.
-HWY_INLINE bool draw_aligned(const Instance& instance, VoxelCanvas& canvas) {
+template <class Canvas>
+HWY_INLINE bool draw_aligned(const Instance& instance, Canvas& canvas) {
   GridPlacement placement;
   if (!place(canvas.lattice, instance.model_from_mesh, placement)) return true;
   Reach reach;
@@ -210,9 +213,10 @@ HWY_INLINE bool draw_aligned(const Instance& instance, VoxelCanvas& canvas) {
   return true;
 }
 
-/// Draws the parts that the view shows. Their order does not matter to the planes and sums.
+/// Draws the parts that the view shows. Neither their order nor their company matters to the planes and sums.
+template <class Canvas>
 HWY_INLINE void draw_parts(const std::vector<Solid>& solids, std::span<const Instance> instances, VolumeView view,
-                           VolumeScratch& scratch) {
+                           VolumeScratch& scratch, Canvas& canvas) {
   // Boxes, spheres, cylinders and cones wait here; solids of one of these kinds are all alike.
   constexpr int kKinds = 4;
   Waiting waiting[kKinds];
@@ -225,7 +229,7 @@ HWY_INLINE void draw_parts(const std::vector<Solid>& solids, std::span<const Ins
     switch (solid.kind) {
       case SolidKind::nothing: continue;
       case SolidKind::box:
-        if (draw_aligned(instance, scratch.canvas)) continue;
+        if (draw_aligned(instance, canvas)) continue;
         slot = 0;
         break;
       case SolidKind::sphere: slot = 1; break;
@@ -235,16 +239,16 @@ HWY_INLINE void draw_parts(const std::vector<Solid>& solids, std::span<const Ins
     if (slot >= 0) {
       alike[slot] = &solid;
       waiting[slot].part[waiting[slot].count++] = &instance;
-      if (waiting[slot].count == 4) draw_batch(waiting[slot], solid, scratch);
+      if (waiting[slot].count == 4) draw_batch(waiting[slot], solid, scratch, canvas);
       continue;
     }
     GridPlacement placement;
-    if (!place(scratch.canvas.lattice, instance.model_from_mesh, placement)) continue;
-    if (solid.kind == SolidKind::facets) draw_facets(solid, placement, scratch);
-    else draw_convex(solid, instance, placement, scratch);
+    if (!place(canvas.lattice, instance.model_from_mesh, placement)) continue;
+    if (solid.kind == SolidKind::facets) draw_facets(solid, placement, scratch.scan, canvas);
+    else draw_convex(solid, instance, placement, scratch, canvas);
   }
   for (int slot = 0; slot < kKinds; ++slot) {
-    if (alike[slot] != nullptr) draw_batch(waiting[slot], *alike[slot], scratch);
+    if (alike[slot] != nullptr) draw_batch(waiting[slot], *alike[slot], scratch, canvas);
   }
 }
 

@@ -9,6 +9,7 @@
 #endif
 
 #include "score/bit_sum-inl.h"
+#include "score/counting_canvas.h"
 #include "score/voxel_canvas.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -67,20 +68,36 @@ struct SweepSums {
 /// How the union of the targets fills a block.
 enum class BlockUse : std::uint8_t { none, some, all };
 
-/// One block of kBlockTiles tiles (fewer at the end of a row): counts and clears it.
+/// Counts one block of kBlockTiles tiles (fewer at the end of a row). True if some voxel is covered twice.
 template <class Count>
-HWY_INLINE void sweep_block(std::uint32_t* once, std::uint32_t* twice, const std::uint32_t* target, BlockUse use,
-                            Count words, SweepSums& sums) {
+HWY_INLINE bool count_block(const std::uint32_t* once, const std::uint32_t* twice, const std::uint32_t* target,
+                            BlockUse use, Count words, SweepSums& sums) {
   if (use == BlockUse::some) {
     add_common(once, target, words, sums.wanted);
     add_beyond(once, target, words, sums.spilled);
   } else {
     add_all(once, words, use == BlockUse::all ? sums.wanted : sums.spilled);
   }
+  if (!any_set(twice, words)) return false;
+  add_all(twice, words, sums.overlap);
+  return true;
+}
+
+/// The same, and clears it.
+template <class Count>
+HWY_INLINE void sweep_block(std::uint32_t* once, std::uint32_t* twice, const std::uint32_t* target, BlockUse use,
+                            Count words, SweepSums& sums) {
+  if (count_block(once, twice, target, use, words, sums)) clear(twice, words);
   clear(once, words);
-  if (any_set(twice, words)) {
-    add_all(twice, words, sums.overlap);
-    clear(twice, words);
+}
+
+/// A block of a counting canvas: what is covered at all, and twice or more.
+HWY_INLINE void flatten_block(const std::uint32_t* planes, std::uint32_t* once, std::uint32_t* twice) {
+  for (std::int32_t tile = 0; tile < kBlockTiles; ++tile, planes += 8 * kCountPlanes, once += 8, twice += 8) {
+    U8 more = U8::load(planes + 8);
+    for (std::size_t plane = 2; plane < kCountPlanes; ++plane) more = more | U8::load(planes + plane * 8);
+    more.store(twice);
+    (more | U8::load(planes)).store(once);
   }
 }
 

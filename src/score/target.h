@@ -10,6 +10,7 @@
 
 #include "derivation/derivation.h"
 #include "model/model.h"
+#include "score/model_change.h"
 
 namespace espalier {
 
@@ -45,6 +46,23 @@ class TargetScratch {
   virtual ~TargetScratch() = default;
 };
 
+/// What a target remembers of one state of a search, to score proposals that differ little from it by the difference.
+/// Of one thread at a time.
+class TargetSession {
+ public:
+  virtual ~TargetSession() = default;
+  /// The very score that the target gives to the model. `change` is from the state to the model; `scratch` comes from
+  /// the target's make_scratch.
+  virtual double score(const Derivation& derivation, const Model& model, const ModelChange& change,
+                       TargetScratch* scratch) = 0;
+  /// What was scored last is the state now; at most once for each. Without it the state stays.
+  virtual void commit() = 0;
+  /// The state is now another one.
+  virtual void restart() = 0;
+  /// For tests: the last score was got by the difference, and not by scoring the whole model.
+  virtual bool counted_change() const = 0;
+};
+
 /// What one hard bound has rejected so far.
 struct Rejections {
   std::string name;   // of what was measured: "height"
@@ -61,6 +79,10 @@ class Target {
   virtual TargetView view() const = 0;
   /// For one thread; may be kept for any number of models. Null where none is needed.
   virtual std::unique_ptr<TargetScratch> make_scratch() const { return nullptr; }
+  /// Null where whole models must be scored. The target must outlive it.
+  virtual std::unique_ptr<TargetSession> make_session() const { return nullptr; }
+  /// The most memory that one session takes, in bytes; 0 where there are none.
+  virtual std::size_t session_bytes() const { return 0; }
   /// Whether it may find a model not acceptable. Such targets are asked first, and rejected models scored no further.
   virtual bool may_reject() const { return false; }
   /// Higher is better; finite, or -infinity: not acceptable. `scratch` comes from make_scratch of this very target.

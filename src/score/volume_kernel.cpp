@@ -25,7 +25,12 @@ namespace HWY_NAMESPACE {
 
 void draw_model(const std::vector<Solid>& solids, std::span<const Instance> instances, VolumeView view,
                 VolumeScratch& scratch) {
-  draw_parts(solids, instances, view, scratch);
+  draw_parts(solids, instances, view, scratch, scratch.canvas);
+}
+
+void draw_counting(const std::vector<Solid>& solids, std::span<const Instance> instances, VolumeView view,
+                   VolumeScratch& scratch, CountingCanvas& canvas) {
+  draw_parts(solids, instances, view, scratch, canvas);
 }
 
 /// `used` tells of each block how the union of the targets fills it; counts.inside has one entry per target.
@@ -64,6 +69,39 @@ void sweep_model(const std::vector<BitGrid>& targets, const BitGrid& all, const 
   if (targets.size() == 1) counts.inside[0] = wanted;
 }
 
+void count_touched(const std::vector<BitGrid>& targets, const BitGrid& all, const BlockMap& used,
+                   const CountingCanvas& canvas, VolumeCounts& counts) {
+  constexpr std::size_t kWords = kBlockTiles * 8;
+  const std::size_t row_words = std::size_t{all.nx()} * 8;
+  SweepSums after, before;
+  for (std::size_t i = 0; i < canvas.touched.size(); ++i) {
+    const std::size_t block = canvas.touched[i], row = block / canvas.blocks, in_row = block % canvas.blocks;
+    const std::size_t at = row * row_words + in_row * kWords, words = std::min(kWords, row_words - in_row * kWords);
+    const std::size_t mark = row * canvas.marks_per_row + in_row / 64;
+    const BlockUse use = (used.any[mark] >> in_row % 64 & 1) == 0   ? BlockUse::none
+                         : (used.full[mark] >> in_row % 64 & 1) == 0 ? BlockUse::some
+                                                                     : BlockUse::all;
+    alignas(32) std::uint32_t once[kWords], twice[kWords];
+    const auto count = [&](const std::uint32_t* planes, SweepSums& sums, std::uint64_t sign) HWY_ATTR {
+      flatten_block(planes, once, twice);
+      for (std::size_t k = 0; targets.size() > 1 && k < targets.size(); ++k) {
+        BitSum inside;
+        add_common(once, targets[k].data() + at, words, inside);
+        counts.inside[k] += sign * inside.total();
+      }
+      count_block(once, twice, all.data() + at, use, words, sums);
+    };
+    count(canvas.planes.data() + block * CountingCanvas::kBlockWords, after, 1);
+    if (canvas.copying) count(canvas.copies.data() + i * CountingCanvas::kBlockWords, before, ~0ull);
+  }
+  const std::uint64_t wanted = after.wanted.total() - before.wanted.total();
+  const std::uint64_t spilled = after.spilled.total() - before.spilled.total();
+  counts.spilled += spilled;
+  counts.covered += wanted + spilled;
+  counts.overlap += after.overlap.total() - before.overlap.total();
+  if (targets.size() == 1) counts.inside[0] += wanted;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace espalier
 HWY_AFTER_NAMESPACE();
@@ -74,6 +112,8 @@ namespace espalier {
 
 HWY_EXPORT(draw_model);
 HWY_EXPORT(sweep_model);
+HWY_EXPORT(draw_counting);
+HWY_EXPORT(count_touched);
 
 namespace {
 
@@ -113,6 +153,16 @@ void VolumeKernel::sweep(VolumeScratch& scratch, VolumeCounts& counts) const {
   HWY_DYNAMIC_DISPATCH(sweep_model)(targets_, union_, used_, scratch, counts);
   counts.hits = scratch.canvas.hits;
   counts.outside = scratch.canvas.outside;
+}
+
+void VolumeKernel::draw(std::span<const Instance> instances, VolumeView view, VolumeScratch& scratch,
+                        CountingCanvas& canvas) const {
+  canvas.hits = canvas.outside = 0;
+  HWY_DYNAMIC_DISPATCH(draw_counting)(solids_, instances, view, scratch, canvas);
+}
+
+void VolumeKernel::add_change(const CountingCanvas& canvas, VolumeCounts& counts) const {
+  HWY_DYNAMIC_DISPATCH(count_touched)(targets_, union_, used_, canvas, counts);
 }
 
 std::vector<std::string> kernel_paths() {

@@ -13,6 +13,7 @@
 #include "model/model.h"
 #include "score/bit_grid.h"
 #include "score/convex_shape.h"
+#include "score/counting_canvas.h"
 #include "score/facet_scan.h"
 #include "score/solid.h"
 #include "score/span_form.h"
@@ -59,6 +60,12 @@ class VolumeKernel {
     draw(instances, view, scratch);
     sweep(scratch, counts);
   }
+
+  /// Counts the parts that `view` shows up or down, and sums up their hits and outside. `scratch` lends its shapes.
+  void draw(std::span<const Instance> instances, VolumeView view, VolumeScratch& scratch, CountingCanvas& canvas) const;
+  /// Adds what the touched blocks hold now, less what they held before where there are copies (modulo 2^64: sums of
+  /// changes are right). Hits and outside aside; counts.inside has one entry per target.
+  void add_change(const CountingCanvas& canvas, VolumeCounts& counts) const;
 
  private:
   VoxelGrid grid_;

@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "score/volume_kernel.h"
+#include "score/volume_session.h"
 #include "score/voxelise.h"
 
 namespace espalier {
@@ -129,6 +130,12 @@ TargetView VolumeTarget::view() const {
 std::unique_ptr<TargetScratch> VolumeTarget::make_scratch() const {
   return std::make_unique<VolumeScratch>(settings().grid);
 }
+
+std::unique_ptr<TargetSession> VolumeTarget::make_session() const {
+  return std::make_unique<VolumeSession>(*this, parts_->kernel);
+}
+
+std::size_t VolumeTarget::session_bytes() const { return CountingCanvas::bytes(Lattice(grid())); }
 
 void VolumeTarget::counts(std::span<const Instance> instances, TargetScratch& scratch, VolumeCounts& counts) const {
   parts_->kernel.count(instances, settings().view, static_cast<VolumeScratch&>(scratch), counts);

@@ -87,6 +87,8 @@ class VolumeTarget final : public Target {
   const std::string& name() const override { return settings().name; }
   TargetView view() const override;
   std::unique_ptr<TargetScratch> make_scratch() const override;
+  std::unique_ptr<TargetSession> make_session() const override;
+  std::size_t session_bytes() const override;
   double score(const Derivation& derivation, const Model& model, TargetScratch* scratch) const override;
   /// Every voxel that is worth it covered once, nothing else: linear: sum over the grid's voxels of max(0, weight);
   /// smootherstep forms: sum of the positive fills, plus -sum(spill) where that is positive.

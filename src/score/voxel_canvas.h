@@ -14,6 +14,8 @@ namespace espalier {
 inline constexpr std::int32_t kBlockTiles = 4;
 
 struct VoxelCanvas {
+  static constexpr std::size_t kTileWords = 8;
+
   explicit VoxelCanvas(const Lattice& lattice_of_grid)
       : lattice(lattice_of_grid),
         once(nx(), static_cast<std::uint32_t>(lattice.cells[1]), static_cast<std::uint32_t>(lattice.cells[2])),
@@ -26,9 +28,11 @@ struct VoxelCanvas {
   std::int32_t depth() const { return static_cast<std::int32_t>(once.depth()); }
   std::int32_t tile_rows() const { return static_cast<std::int32_t>(once.tile_rows()); }
 
+  /// Of a tile row, in 32-bit words.
+  std::size_t row_words() const { return std::size_t{nx()} * kTileWords; }
   /// Offset of tile (x = 0) of a tile row, in 32-bit words.
   std::size_t row_offset(std::int32_t tile_row, std::int32_t word) const {
-    return (static_cast<std::size_t>(tile_row) * once.depth() + static_cast<std::size_t>(word)) * nx() * 8;
+    return (static_cast<std::size_t>(tile_row) * once.depth() + static_cast<std::size_t>(word)) * row_words();
   }
   std::uint64_t* dirty_row(std::int32_t tile_row, std::int32_t word) {
     const std::size_t row = static_cast<std::size_t>(tile_row) * once.depth() + static_cast<std::size_t>(word);

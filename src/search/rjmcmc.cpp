@@ -40,6 +40,7 @@ void RjmcmcEngine::step() {
   if (steps_ == 0) {
     make_initial_states();
   } else {
+    begin_sessions();
     propose();
     score_made();
     decide();
@@ -67,6 +68,18 @@ void RjmcmcEngine::make_initial_states() {
   chain_of_.resize(states_.size());
   std::iota(chain_of_.begin(), chain_of_.end(), 0u);
   for (const Individual& state : states_) value_of(state.score);  // refuses what has no ratio
+}
+
+void RjmcmcEngine::begin_sessions() {
+  if (sessions_begun_) return;
+  sessions_begun_ = true;
+  sessions_.resize(states_.size());
+  session_of_.resize(states_.size());
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    session_of_[i] = i;
+    if (!sessions_[i]) sessions_[i] = problem_.scorer->make_session();
+    if (sessions_[i]) sessions_[i]->begin(states_[i].derivation);
+  }
 }
 
 ProposalKind RjmcmcEngine::draw_kind(RandomStream& random) const {
@@ -129,11 +142,11 @@ void RjmcmcEngine::score_made() {
   batch_places_.clear();
   for (std::size_t i = 0; i < states_.size(); ++i) {
     if (!tries_[i].made) continue;
-    batch_.push_back(&proposals_[i]);
+    batch_.push_back({sessions_[session_of_[i]].get(), &proposals_[i]});
     batch_places_.push_back(i);
   }
   scores_.resize(batch_.size());
-  if (!batch_.empty()) problem_.scorer->score(batch_, scores_);
+  if (!batch_.empty()) problem_.scorer->score_proposals(batch_, scores_);
   evaluations_ += batch_.size();
   for (std::size_t k = 0; k < batch_.size(); ++k) {
     CHECK(scores_[k] == kNotAcceptable || std::isfinite(scores_[k]));
@@ -157,6 +170,7 @@ void RjmcmcEngine::decide() {
     if (!(u < natural_exp(log_acceptance(i)))) continue;
     std::swap(states_[i].derivation, proposals_[i]);
     states_[i].score = one.score;
+    if (ScoreSession* session = sessions_[session_of_[i]].get()) session->commit();
     ++count_of(i).accepted;
     one.made = false;
   }
@@ -186,6 +200,7 @@ void RjmcmcEngine::swap_rungs() {
 void RjmcmcEngine::sort_states() {
   best_first_.sort(states_, [this](std::size_t place) { return chain_of_[place]; });
   best_first_.follow(chain_of_, chain_scratch_);
+  if (sessions_begun_) best_first_.follow(session_of_, session_scratch_);
 }
 
 }  // namespace espalier

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "search/best_first.h"
@@ -86,6 +87,7 @@ class RjmcmcEngine final : public Engine {
   };
 
   void make_initial_states();
+  void begin_sessions();
   void propose();
   void propose_delayed();
   void score_made();
@@ -112,11 +114,16 @@ class RjmcmcEngine final : public Engine {
 
   std::vector<Try> tries_;               // per state
   std::vector<Derivation> proposals_;    // per state
-  std::vector<const Derivation*> batch_;
+  // One per state where the scorer has them; begun with the states when they are next needed.
+  std::vector<std::unique_ptr<ScoreSession>> sessions_;
+  std::vector<std::size_t> session_of_;  // of each state
+  bool sessions_begun_ = false;
+  std::vector<ScoreProposal> batch_;
   std::vector<std::size_t> batch_places_;
   std::vector<double> scores_;
   BestFirst best_first_;
   std::vector<std::uint32_t> chain_scratch_;
+  std::vector<std::size_t> session_scratch_;
 };
 
 }  // namespace espalier

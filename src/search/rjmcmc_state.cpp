@@ -82,6 +82,7 @@ void RjmcmcEngine::load(std::istream& in) {
   best_ = std::move(best);
   states_ = std::move(states);
   chain_of_ = std::move(chain_of);
+  sessions_begun_ = false;
 }
 
 }  // namespace espalier
