@@ -38,7 +38,7 @@ class Comparison:
         self.searches = read_csv(os.path.join(folder, "searches.csv"))
 
     def shares(self, variant, seconds):
-        """Of all seeds; a seed without any step by then has none."""
+        """Of the seeds that had made a step by then."""
         shares = []
         for curve in self.curves[variant].values():
             reached = [share for at, share in curve if at <= seconds * (1 + 1e-9)]
@@ -48,7 +48,7 @@ class Comparison:
 
     def mean(self, variant, seconds):
         shares = self.shares(variant, seconds)
-        return statistics.fmean(shares) if shares else float("nan")
+        return statistics.fmean(shares) if len(shares) == len(self.curves[variant]) else float("nan")
 
     def mean_curve(self, variant):
         """(seconds, mean, standard deviation) where every seed has a share."""
