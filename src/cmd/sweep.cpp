@@ -38,7 +38,7 @@ SweepRequest request_of(const SweepOptions& options) {
   SweepRequest request;
   const ContestWords words = contest_words(options);
   request.varied = parse_varied(options.varied);
-  request.combinations = plan_combinations(request.varied, options.random, options.seed.value_or(1));
+  request.combinations = plan_combinations(request.varied, options.random, contest_seeds(words)[0]);
   request.contest = make_contest(words, sweep_variants(request.varied, request.combinations, options.engine), true);
   check_sweep(request.varied, request.contest);
   request.curves = options.curves;

@@ -118,13 +118,14 @@ CompareMark make_mark(const std::vector<std::vector<double>>& scores, double at)
   return mark;
 }
 
+/// Within what the last mark allows: a step that crosses the end of the budget counts no more here than for scores.
 CompareReach reach_of(const CompareOutcomes& outcomes, const CompareSummary& summary, std::size_t who, Effort effort,
                       double score) {
   CompareReach reach;
   std::vector<double> needed;  // negative, so that what never came is last
   for (const std::size_t s : summary.counted) {
     const ContestOutcome* const outcome = outcome_of(outcomes, who, s);
-    const std::optional<double> spent = outcome ? outcome->rises.reaching(effort, score) : std::nullopt;
+    const std::optional<double> spent = outcome ? outcome->rises.reaching(effort, score, summary.effort, summary.marks.back().at) : std::nullopt;
     needed.push_back(spent ? -*spent : kNotAcceptable);
     reach.reached += spent.has_value();
   }
