@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "io/file.h"
 #include "run/compare_page.h"
@@ -121,10 +122,21 @@ std::optional<CompareResult> compare_variants(const CompareRequest& request, Mes
   return result;
 }
 
+std::string interruption_in_words(const Contest& contest, const CompareResult& result) {
+  if (!result.interrupted) return "";
+  const CompareSummary& summary = result.summary;
+  if (summary.partial) {
+    return fmt::format("no seed was completed: these are of seed {}, cut short after {}",
+                       contest.seeds[summary.counted[0]], in_words(summary.effort, summary.marks.back().at));
+  }
+  return fmt::format("stopped by hand: these are of the {} of {} that all variants completed", summary.counted.size(),
+                     counted(contest.seeds.size(), "seed"));
+}
+
 std::string told_apart_in_words(const Contest& contest, const CompareMark& mark) {
   if (mark.ranking.size() < 2) return "";
   const std::size_t seeds = mark.scores[0].count;
-  if (least_rank_test(seeds, seeds) > kLikely)
+  if (least_chance(seeds, mark.ranking.size()) > kLikely)
     return fmt::format("; {} too few to tell it from chance",
                        seeds == 1 ? "one seed is" : fmt::format("{} seeds are", seeds));
   std::vector<std::string> names;

@@ -148,6 +148,7 @@ std::string compare_json(const Contest& contest, const CompareResult& result) {
                                  {"seeds", contest.seeds},
                                  {"seeds_counted", counted},
                                  {"interrupted", result.interrupted},
+                                 {"cut_short", summary.partial},
                                  {"warnings", result.warnings},
                                  {"variants", variants},
                                  {"marks", marks}};

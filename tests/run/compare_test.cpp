@@ -152,7 +152,9 @@ TEST_F(Compare, StoppedByHandItEndsWithWhatIsThere) {
   EXPECT_EQ(result.outcomes[0][1]->stopped_by, "interrupt");
   EXPECT_FALSE(result.outcomes[1][1]) << "had not begun";
   EXPECT_THAT(read_text(folder_ / "out/searches.csv"), HasSubstr(",interrupt\n"));
-  EXPECT_THAT(read_text(folder_ / "out/compare.html"), HasSubstr("stopped by hand, 2 seeds planned"));
+  EXPECT_THAT(read_text(folder_ / "out/compare.html"),
+              AllOf(HasSubstr("stopped by hand, 2 seeds planned"),
+                    HasSubstr("Interrupted: stopped by hand: these are of the 1 of 2 seeds that all")));
 
   stop = true;
   request.out = folder_ / "none";
@@ -174,7 +176,11 @@ TEST_F(Compare, StoppedInItsFirstSeedItTellsOfThatMuch) {
   const CompareResult result = compare(request);
   EXPECT_TRUE(result.summary.partial);
   EXPECT_LT(result.summary.marks.back().at, 1000) << "as far as both came, not the budget";
-  EXPECT_THAT(read_text(folder_ / "out/compare.html"), HasSubstr("stopped by hand before any seed was done"));
+  EXPECT_THAT(interruption_in_words(request.contest, result),
+              HasSubstr("no seed was completed: these are of seed 3, cut short after "));
+  EXPECT_THAT(read_text(folder_ / "out/compare.html"),
+              AllOf(HasSubstr("stopped by hand before any seed was done"), HasSubstr("Interrupted: no seed was")));
+  EXPECT_TRUE(nlohmann::json::parse(read_text(folder_ / "out/compare.json"))["cut_short"]);
 }
 
 TEST_F(Compare, ASearchThatFailsIsToldAndCostsNoOther) {

@@ -176,6 +176,42 @@ TEST(Contest, MarksRanksAndReachAreThoseWorkedOutByHand) {
   EXPECT_EQ(axis.curves[1].points.back()->mean, 85);
 }
 
+// Five seeds; `first` above all, `near` mingled with it, two below all of it: p of the rank test 2/252 twice, and of
+// `near` (ranks of first: 2 4 6 8 10, 30 against a mean of 27.5) much more. Holm: 3 x 2/252 for the two.
+TEST(Contest, ChancesAreCorrectedForHowManyThereAre) {
+  const SceneBudget budget = {10.0, {}, {}};
+  CompareOutcomes outcomes(4);
+  for (int seed = 0; seed < 5; ++seed) {
+    const auto add = [&](std::size_t variant, double score) {
+      outcomes[variant].push_back(searched({{1, 10, 1, score, 0}, {2, 20, 10, score, 0}}, budget));
+    };
+    add(0, 10 + seed), add(1, 102 + 2 * seed), add(2, 20 + seed), add(3, 101 + 2 * seed);
+  }
+  const CompareMark mark = summarise_contest(outcomes, budget, {10}).marks.back();
+  EXPECT_EQ(mark.ranking.front(), 1u);
+  EXPECT_DOUBLE_EQ(mark.chance[0], 3 * 2.0 / 252);
+  EXPECT_EQ(mark.chance[1], 1);
+  EXPECT_DOUBLE_EQ(mark.chance[2], 3 * 2.0 / 252);
+  EXPECT_GT(mark.chance[3], 0.5);
+  EXPECT_DOUBLE_EQ(least_chance(5, 4), 3 * 2.0 / 252);
+  EXPECT_DOUBLE_EQ(least_chance(5, 2), 2.0 / 252);
+  EXPECT_DOUBLE_EQ(least_chance(5, 1), 2.0 / 252);
+  EXPECT_DOUBLE_EQ(least_chance(1, 8), 1);
+}
+
+// Cut short just after a mark: 0.5 s and 0.50005 s are one and the same to a reader.
+TEST(Contest, ASearchCutShortHasNoMarkTwice) {
+  const SceneBudget budget = {60.0, {}, {}};
+  CompareOutcomes outcomes(1);
+  outcomes[0].push_back(searched({{1, 10, 0.1, 50, 0}, {2, 20, 0.50005, 60, 0}}, budget));
+  outcomes[0].back().stopped_by = "interrupt";
+  const CompareSummary summary = summarise_contest(outcomes, budget, {0.2, 0.5, 5, 60});
+  EXPECT_TRUE(summary.partial);
+  std::vector<double> at;
+  for (const CompareMark& mark : summary.marks) at.push_back(mark.at);
+  EXPECT_THAT(at, ElementsAre(0.2, 0.50005));
+}
+
 TEST(Contest, MarksLieWithinTheBudget) {
   EXPECT_THAT(default_marks({60.0, {}, {}}), ElementsAre(1, 5, 30, 60));
   EXPECT_THAT(default_marks({10.0, {}, {}}), ElementsAre(0.5, 1, 5, 10));
