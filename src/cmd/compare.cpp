@@ -132,6 +132,7 @@ int compare_verb(const CompareOptions& options) {
   print_marks(request.contest, *result);
   print_words(request.contest, *result);
   print_reach(request.contest, *result);
+  if (result->failed > 0) fmt::print("\n{}", failed_in_words(result->failed));
   fmt::print("\nwrote {}\nwrote {}\n", page, (fs::path(result->folder) / "compare.csv").string());
   return kDone;
 }

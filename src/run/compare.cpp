@@ -115,6 +115,11 @@ std::optional<CompareResult> compare_variants(const CompareRequest& request, Mes
   result.interrupted = !run_contest(contest, setups, *executor, control, take);
   if (std::none_of(result.bests.begin(), result.bests.end(), [](const auto& best) { return best.has_value(); }))
     return std::nullopt;
+  for (std::size_t v = 0; v < contest.variants.size(); ++v) {
+    const std::string failures = failures_in_words(contest.variants[v].name, result.outcomes[v]);
+    if (!failures.empty()) result.warnings.push_back(failures);
+    result.failed += failed_of(result.outcomes[v]);
+  }
   result.summary = summarise_contest(result.outcomes, contest.budget, request.marks);
   observer.writing();
   write_folder(folder, CompareFolder(request, result, setups, *executor).files());

@@ -34,6 +34,7 @@ struct CompareResult {
   double optimum = 0;
   int threads = 1;
   bool interrupted = false;
+  std::size_t failed = 0;  // searches
   std::vector<std::string> warnings;
   std::string folder;
 };

@@ -149,6 +149,7 @@ std::string compare_json(const Contest& contest, const CompareResult& result) {
                                  {"seeds_counted", counted},
                                  {"interrupted", result.interrupted},
                                  {"cut_short", summary.partial},
+                                 {"searches_failed", result.failed},
                                  {"warnings", result.warnings},
                                  {"variants", variants},
                                  {"marks", marks}};

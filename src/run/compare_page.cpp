@@ -97,8 +97,9 @@ std::string marks_html(const Contest& contest, const CompareResult& result) {
       "</tbody></table></div>\n<p class=\"note\">{}p: how often chance alone would set a variant and the first of the "
       "ranking at least so far apart (exact rank test of Mann and Whitney, two-sided, by Holm's correction for all "
       "that are held against the first); with {} and {} it cannot be below {}. The first was chosen by these same "
-      "scores: hold the two that matter against each other again, with other seeds.</p>\n", result.optimum > 0 ? fmt::format("In per cent of the most that any model could score, {}. ",
-                                                    readable_number(result.optimum)) : "",
+      "scores: hold the two that matter against each other again, with other seeds.</p>\n",
+      result.optimum > 0 ? fmt::format("In per cent of the most that any model could score, {}. ",
+                                       readable_number(result.optimum)) : "",
       counted(seeds, "seed"), counted(contest.variants.size(), "variant"),
       chance_in_words(least_chance(seeds, contest.variants.size())));
 }

@@ -125,10 +125,12 @@ CompareMark make_mark(const std::vector<std::vector<double>>& scores, double at)
 CompareReach reach_of(const CompareOutcomes& outcomes, const CompareSummary& summary, std::size_t who, Effort effort,
                       double score) {
   CompareReach reach;
+  const double most = summary.marks.back().at;
   std::vector<double> needed;  // negative, so that what never came is last
   for (const std::size_t s : summary.counted) {
     const ContestOutcome* const outcome = outcome_of(outcomes, who, s);
-    const std::optional<double> spent = outcome ? outcome->rises.reaching(effort, score, summary.effort, summary.marks.back().at) : std::nullopt;
+    const std::optional<double> spent =
+        outcome ? outcome->rises.reaching(effort, score, summary.effort, most) : std::nullopt;
     needed.push_back(spent ? -*spent : kNotAcceptable);
     reach.reached += spent.has_value();
   }

@@ -112,8 +112,9 @@ TEST_F(ContestCmd, BadInputIsTold) {
   told({"compare", "scene.toml", "--engines", ",", "--time", "1"}, "got \"\"");
   told({"compare", "scene.toml", "--seeds", "0", "--time", "1"}, "--seeds must be 1 to 1000, got 0");
   told({"compare", "scene.toml"}, "do not compare");
-  for (const char* option : {"--engines", "--marks", "--seeds", "--seed", "--clock", "--out", "--variant"})
+  for (const char* option : {"--engines", "--marks", "--seeds", "--clock", "--out", "--variant"})
     told({"compare", "scene.toml", "--evaluations", "9", option, ""}, std::string(option) + ": must not be empty");
+  told({"compare", "scene.toml", "--evaluations", "9", "--seed", ""}, "--seed: ");
   told({"sweep", "scene.toml", "--vary", "search.mutation=0,1", "--engine", ""}, "--engine: must not be empty");
   told({"compare", "scene.toml", "--evaluations", "9", "--variant", "x: seed=7"}, "--variant x: seed: ");
   told({"compare", "none.toml", "--time", "1"}, "none.toml");

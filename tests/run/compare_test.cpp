@@ -189,21 +189,29 @@ TEST_F(Compare, ASearchThatFailsIsToldAndCostsNoOther) {
   std::vector<VariantWords> variants = parse_engines("ga");
   variants.push_back(parse_variant("ratio: engine=smc, search.weight=ratio, volume.outside_weight=1000"));
   CompareRequest request = pile_comparison(folder_, "out", variants);
-  request.slice_seconds = 0;
-  try {
-    compare_variants(request, source_);
-    ADD_FAILURE() << "nothing was lost yet: it ends at once";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("ratio, seed 3: "));
-  }
-  EXPECT_FALSE(fs::exists(folder_ / "out"));
-  request.slice_seconds = 1e9;  // ga is done before the other begins
+  request.slice_seconds = 0;  // ratio fails before ga is done
   const CompareResult result = compare(request);
   EXPECT_FALSE(result.outcomes[1][0]->problem.empty());
   EXPECT_FALSE(result.bests[1]);
-  EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("ratio has other targets or limits than ga")));
+  EXPECT_EQ(result.failed, 2u);
+  EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("ratio has other targets or limits than ga"),
+                                           HasSubstr("ratio: 2 of 2 searches came to nothing; seed 3: ")));
+  EXPECT_EQ(nlohmann::json::parse(read_text(folder_ / "out/compare.json"))["searches_failed"], 2);
   EXPECT_EQ(result.summary.marks.back().ranking, (std::vector<std::size_t>{0, 1}));
   EXPECT_FALSE(fs::exists(folder_ / "out/ratio.toml"));
+}
+
+TEST_F(Compare, WhereNothingCameOfAnySearchItSaysWhy) {
+  const CompareRequest request = pile_comparison(
+      folder_, "out", {parse_variant("one: engine=ga, limits.parts.min=90, limits.parts.max=90, limits.genes.max=8"),
+                       parse_variant("two: engine=smc, search.weight=ratio, volume.outside_weight=1000")});
+  try {
+    compare_variants(request, source_);
+    ADD_FAILURE() << "nothing to tell of";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("one, seed 3: none of "));
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
 }  // namespace

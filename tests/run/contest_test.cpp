@@ -204,7 +204,7 @@ TEST(Contest, ASearchCutShortHasNoMarkTwice) {
   const SceneBudget budget = {60.0, {}, {}};
   CompareOutcomes outcomes(1);
   outcomes[0].push_back(searched({{1, 10, 0.1, 50, 0}, {2, 20, 0.50005, 60, 0}}, budget));
-  outcomes[0].back().stopped_by = "interrupt";
+  outcomes[0].back()->stopped_by = "interrupt";
   const CompareSummary summary = summarise_contest(outcomes, budget, {0.2, 0.5, 5, 60});
   EXPECT_TRUE(summary.partial);
   std::vector<double> at;
