@@ -104,7 +104,8 @@ std::optional<CompareResult> compare_variants(const CompareRequest& request, Mes
   observer.started(contest_start("compare", request.contest, first, folder.path(), executor->workers()));
   CompareResult result;
   result.grammar = first.graph().name, result.optimum = first.objective.optimum();
-  result.threads = executor->workers(), result.folder = folder.path();
+  result.machine = this_machine(), result.threads = executor->workers();
+  result.folder = folder.path();
   result.bests.resize(contest.variants.size());
   result.outcomes.assign(contest.variants.size(), std::vector<std::optional<ContestOutcome>>(contest.seeds.size()));
   look_for_warnings(request, setups, result);

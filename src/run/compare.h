@@ -9,6 +9,7 @@
 
 #include "run/compare_summary.h"
 #include "run/contest_files.h"
+#include "run/contest_machine.h"
 #include "run/contest_progress.h"
 
 namespace espalier {
@@ -33,6 +34,7 @@ struct CompareResult {
   std::string grammar;
   double optimum = 0;
   int threads = 1;
+  ContestMachine machine;
   bool interrupted = false;
   std::size_t failed = 0;  // searches
   std::vector<std::string> warnings;

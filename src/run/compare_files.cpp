@@ -144,6 +144,7 @@ std::string compare_json(const Contest& contest, const CompareResult& result) {
                                  {"optimum", result.optimum},
                                  {"budget", budget},
                                  {"threads", result.threads},
+                                 {"machine", json_of(result.machine)},
                                  {"clock", contest.clock == StopwatchClock::wall ? "wall" : "computing"},
                                  {"seeds", contest.seeds},
                                  {"seeds_counted", counted},

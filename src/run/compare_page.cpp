@@ -222,7 +222,7 @@ std::string compare_page(const Contest& contest, const CompareResult& result, co
                         {"settings", settings},
                         {"commands", escape_html(commands(contest, result))},
                         {"command", escape_html(parts.command)},
-                        {"provenance", contest_provenance(contest, *parts.inputs)},
+                        {"provenance", contest_provenance(contest, result.machine, *parts.inputs)},
                         {"data", data_json(contest, result)}});
 }
 

@@ -101,7 +101,8 @@ std::optional<SweepResult> sweep_settings(const SweepRequest& request, MeshSourc
   observer.started(contest_start("sweep", request.contest, first, folder.path(), executor->workers()));
   SweepResult result;
   result.grammar = first.graph().name, result.optimum = first.objective.optimum();
-  result.threads = executor->workers(), result.folder = folder.path();
+  result.machine = this_machine(), result.threads = executor->workers();
+  result.folder = folder.path();
   result.combinations.resize(contest.variants.size());
   for (SweepCombination& combination : result.combinations) combination.searches.resize(contest.seeds.size());
   result.warnings = first.warnings;

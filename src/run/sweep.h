@@ -9,6 +9,7 @@
 
 #include "run/compare_summary.h"
 #include "run/contest_files.h"
+#include "run/contest_machine.h"
 #include "run/contest_progress.h"
 #include "run/sweep_plan.h"
 
@@ -50,6 +51,7 @@ struct SweepResult {
   std::string grammar;
   double optimum = 0;
   int threads = 1;
+  ContestMachine machine;
   bool interrupted = false;
   std::size_t failed = 0;  // searches
   std::vector<std::string> warnings;

@@ -130,6 +130,7 @@ std::string sweep_json(const SweepRequest& request, const SweepResult& result) {
                                  {"optimum", result.optimum},
                                  {"budget", budget},
                                  {"threads", result.threads},
+                                 {"machine", json_of(result.machine)},
                                  {"clock", contest.clock == StopwatchClock::wall ? "wall" : "computing"},
                                  {"seeds", contest.seeds},
                                  {"interrupted", result.interrupted},

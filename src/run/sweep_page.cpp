@@ -229,7 +229,7 @@ std::string sweep_page(const SweepRequest& request, const SweepResult& result, c
        {"curves", shown.size() < result.combinations.size() ? fmt::format("The first {}", shown.size()) : "All"},
        {"settings", escape_html(parts.settings)},
        {"command", escape_html(request.command)},
-       {"provenance", contest_provenance(request.contest, *parts.inputs)},
+       {"provenance", contest_provenance(request.contest, result.machine, *parts.inputs)},
        {"data", data_json(request, result)}});
 }
 

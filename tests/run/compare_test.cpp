@@ -119,6 +119,8 @@ TEST_F(Compare, FilesHoldWhatTheyPromise) {
   const auto json = nlohmann::json::parse(read_text(folder_ / "out/compare.json"));
   EXPECT_EQ(json["seeds_counted"], (std::vector<int>{3, 4}));
   EXPECT_EQ(json["marks"].back()["evaluations"], 700);
+  EXPECT_EQ(json["machine"], nlohmann::json::parse(json_of(this_machine()).dump()));
+  EXPECT_FALSE(json["cut_short"]);
   EXPECT_EQ(json["marks"].back()["variants"]["ga"]["median"], result.summary.marks.back().scores[0].median);
   // A curve never falls, and its last point is the score.
   for (const CompareCurve& curve : result.summary.axis(Effort::evaluations).curves) {

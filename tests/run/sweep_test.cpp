@@ -68,6 +68,7 @@ TEST_F(Sweep, EveryCombinationIsSearchedAndRanked) {
   EXPECT_THAT(curves, AllOf(HasSubstr("\n1,8,0.1,1,2,8,"), HasSubstr("\n6,40,1.0,3,2,")));
   const auto json = nlohmann::json::parse(read_text(folder_ / "out/sweep.json"));
   EXPECT_EQ(json["ranking"][0]["combination"], result.ranking[0] + 1);
+  EXPECT_EQ(json["machine"], nlohmann::json::parse(json_of(this_machine()).dump()));
 }
 
 TEST_F(Sweep, TheSceneOfTheBestIsReadyToRun) {
