@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "base/counted.h"
 #include "cmd/contest_words.h"
 #include "cmd/interrupt.h"
 #include "cmd/text_table.h"
@@ -65,13 +65,17 @@ void print_marks(const Contest& contest, const CompareResult& result) {
 
 void print_words(const Contest& contest, const CompareResult& result) {
   fmt::print("\n");
+  const std::string interruption = interruption_in_words(contest, result);
+  if (!interruption.empty()) fmt::print("{}\n", interruption);
   for (const CompareMark& mark : result.summary.marks) {
     fmt::print("after {}: {}{}\n", spent_text(result.summary.effort, mark.at), contest.variants[mark.ranking[0]].name,
                told_apart_in_words(contest, mark));
   }
+  if (contest.variants.size() < 2) return;
   const std::size_t seeds = result.summary.counted.size();
-  fmt::print("p: rank test against the first; with {} seed{} it cannot be below {}\n", seeds, seeds == 1 ? "" : "s",
-             chance_in_words(least_rank_test(seeds, seeds)));
+  fmt::print("p: rank test against the first, corrected for {} by Holm; with {} it cannot be below {}\n",
+             counted(contest.variants.size() - 1, "test"), counted(seeds, "seed"),
+             chance_in_words(least_chance(seeds, contest.variants.size())));
 }
 
 void print_reach(const Contest& contest, const CompareResult& result) {
@@ -128,6 +132,7 @@ int compare_verb(const CompareOptions& options) {
   print_marks(request.contest, *result);
   print_words(request.contest, *result);
   print_reach(request.contest, *result);
+  if (result->failed > 0) fmt::print("\n{}", failed_in_words(result->failed));
   fmt::print("\nwrote {}\nwrote {}\n", page, (fs::path(result->folder) / "compare.csv").string());
   return kDone;
 }

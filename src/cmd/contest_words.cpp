@@ -41,6 +41,11 @@ std::string options_again(const ContestOptions& options) {
   return text;
 }
 
+std::string failed_in_words(std::size_t failed) {
+  return fmt::format("{} came to nothing: the warnings say why, and they count as the worst\n",
+                     failed == 1 ? "1 search" : fmt::format("{} searches", failed));
+}
+
 std::unique_ptr<ContestObserver> make_contest_observer(bool json) {
   if (json) return make_contest_json(std::cout);
   return isatty(STDOUT_FILENO) ? make_contest_bar(std::cout) : make_contest_lines(std::cout);

@@ -15,6 +15,9 @@ std::string options_again(const ContestOptions& options);
 /// A word as a shell takes it.
 std::string shell_word(const std::string& word);
 
+/// A line that says how many searches came to nothing: at the end, where it is not missed.
+std::string failed_in_words(std::size_t failed);
+
 std::unique_ptr<ContestObserver> make_contest_observer(bool json);
 /// out/NAME-WHAT, where nothing else is asked for.
 std::string contest_folder(const ContestOptions& options, const char* what);

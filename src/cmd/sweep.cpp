@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/counted.h"
 #include "cmd/contest_words.h"
 #include "cmd/interrupt.h"
 #include "cmd/text_table.h"
@@ -38,7 +39,7 @@ SweepRequest request_of(const SweepOptions& options) {
   SweepRequest request;
   const ContestWords words = contest_words(options);
   request.varied = parse_varied(options.varied);
-  request.combinations = plan_combinations(request.varied, options.random, options.seed.value_or(1));
+  request.combinations = plan_combinations(request.varied, options.random, contest_seeds(words)[0]);
   request.contest = make_contest(words, sweep_variants(request.varied, request.combinations, options.engine), true);
   check_sweep(request.varied, request.contest);
   request.curves = options.curves;
@@ -74,16 +75,24 @@ void print_table(const SweepRequest& request, const SweepResult& result) {
   if (result.ranking.size() > kMostRows) fmt::print("and {} more\n", result.ranking.size() - kMostRows);
 }
 
+/// "10: 55.2 %", "1: - (2 of 3 came to nothing)".
+std::string effect_in_words(const SweepEffect& effect, double optimum) {
+  if (!effect.medians) return effect.value + ": not searched";
+  std::string text = fmt::format("{}: {}", effect.value, score_text(effect.medians->median, optimum));
+  if (effect.nothing > 0) text += fmt::format(" ({} of {} came to nothing)", effect.nothing, effect.medians->count);
+  return text;
+}
+
 void print_effects(const SweepRequest& request, const SweepResult& result) {
   fmt::print("\n");
   for (std::size_t i = 0; i < request.varied.size(); ++i) {
     std::vector<std::string> items;
     for (const SweepEffect& effect : result.effects[i]) {
-      items.push_back(fmt::format("{}: {}", effect.value,
-                                  effect.medians ? score_text(effect.medians->median, result.optimum) : "-"));
+      items.push_back(effect_in_words(effect, result.optimum));
     }
-    fmt::print("{}", listed(fmt::format("{}, {} apart:", request.varied[i].key,
-                                        score_text(effect_of(result.effects[i]), result.optimum)), items));
+    const std::optional<double> apart = effect_of(result.effects[i]);
+    fmt::print("{}", listed(request.varied[i].key +
+                                (apart ? fmt::format(", {} apart:", score_text(*apart, result.optimum)) : ":"), items));
   }
 }
 
@@ -109,9 +118,16 @@ int sweep_verb(const SweepOptions& options) {
     fmt::print("{}\n", event.dump());
     return kDone;
   }
+  if (result->interrupted) {
+    fmt::print("\n{}\n", result->counted.empty() ? "no seed was completed: each is told by what it has"
+                                                 : fmt::format("stopped by hand: these are of the {} of {} that all "
+                                                               "combinations completed", result->counted.size(),
+                                                               counted(request.contest.seeds.size(), "seed")));
+  }
   print_table(request, *result);
   print_effects(request, *result);
   fmt::print("\n");
+  if (result->failed > 0) fmt::print("{}\n", failed_in_words(result->failed));
   for (const char* name : {"sweep.html", "sweep.csv", "best.toml"})
     fmt::print("wrote {}\n", (fs::path(result->folder) / name).string());
   return kDone;

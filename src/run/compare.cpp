@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "io/file.h"
 #include "run/compare_page.h"
@@ -103,7 +104,8 @@ std::optional<CompareResult> compare_variants(const CompareRequest& request, Mes
   observer.started(contest_start("compare", request.contest, first, folder.path(), executor->workers()));
   CompareResult result;
   result.grammar = first.graph().name, result.optimum = first.objective.optimum();
-  result.threads = executor->workers(), result.folder = folder.path();
+  result.machine = this_machine(), result.threads = executor->workers();
+  result.folder = folder.path();
   result.bests.resize(contest.variants.size());
   result.outcomes.assign(contest.variants.size(), std::vector<std::optional<ContestOutcome>>(contest.seeds.size()));
   look_for_warnings(request, setups, result);
@@ -114,6 +116,11 @@ std::optional<CompareResult> compare_variants(const CompareRequest& request, Mes
   result.interrupted = !run_contest(contest, setups, *executor, control, take);
   if (std::none_of(result.bests.begin(), result.bests.end(), [](const auto& best) { return best.has_value(); }))
     return std::nullopt;
+  for (std::size_t v = 0; v < contest.variants.size(); ++v) {
+    const std::string failures = failures_in_words(contest.variants[v].name, result.outcomes[v]);
+    if (!failures.empty()) result.warnings.push_back(failures);
+    result.failed += failed_of(result.outcomes[v]);
+  }
   result.summary = summarise_contest(result.outcomes, contest.budget, request.marks);
   observer.writing();
   write_folder(folder, CompareFolder(request, result, setups, *executor).files());
@@ -121,10 +128,21 @@ std::optional<CompareResult> compare_variants(const CompareRequest& request, Mes
   return result;
 }
 
+std::string interruption_in_words(const Contest& contest, const CompareResult& result) {
+  if (!result.interrupted) return "";
+  const CompareSummary& summary = result.summary;
+  if (summary.partial) {
+    return fmt::format("no seed was completed: these are of seed {}, cut short after {}",
+                       contest.seeds[summary.counted[0]], in_words(summary.effort, summary.marks.back().at));
+  }
+  return fmt::format("stopped by hand: these are of the {} of {} that all variants completed", summary.counted.size(),
+                     counted(contest.seeds.size(), "seed"));
+}
+
 std::string told_apart_in_words(const Contest& contest, const CompareMark& mark) {
   if (mark.ranking.size() < 2) return "";
   const std::size_t seeds = mark.scores[0].count;
-  if (least_rank_test(seeds, seeds) > kLikely)
+  if (least_chance(seeds, mark.ranking.size()) > kLikely)
     return fmt::format("; {} too few to tell it from chance",
                        seeds == 1 ? "one seed is" : fmt::format("{} seeds are", seeds));
   std::vector<std::string> names;

@@ -9,6 +9,7 @@
 
 #include "run/compare_summary.h"
 #include "run/contest_files.h"
+#include "run/contest_machine.h"
 #include "run/contest_progress.h"
 
 namespace espalier {
@@ -33,7 +34,9 @@ struct CompareResult {
   std::string grammar;
   double optimum = 0;
   int threads = 1;
+  ContestMachine machine;
   bool interrupted = false;
+  std::size_t failed = 0;  // searches
   std::vector<std::string> warnings;
   std::string folder;
 };
@@ -48,6 +51,8 @@ std::string compare_reach_csv(const Contest& contest, const CompareResult& resul
 std::string compare_searches_csv(const Contest& contest, const CompareResult& result);
 std::string compare_json(const Contest& contest, const CompareResult& result);
 
+/// "no seed was completed: these are of seed 1, cut short after 0.5 s". Empty: nobody stopped it.
+std::string interruption_in_words(const Contest& contest, const CompareResult& result);
 /// What follows the name of the first at a mark: "; not told apart from it: smc, ga", or ", apart from all others".
 std::string told_apart_in_words(const Contest& contest, const CompareMark& mark);
 

@@ -144,10 +144,13 @@ std::string compare_json(const Contest& contest, const CompareResult& result) {
                                  {"optimum", result.optimum},
                                  {"budget", budget},
                                  {"threads", result.threads},
+                                 {"machine", json_of(result.machine)},
                                  {"clock", contest.clock == StopwatchClock::wall ? "wall" : "computing"},
                                  {"seeds", contest.seeds},
                                  {"seeds_counted", counted},
                                  {"interrupted", result.interrupted},
+                                 {"cut_short", summary.partial},
+                                 {"searches_failed", result.failed},
                                  {"warnings", result.warnings},
                                  {"variants", variants},
                                  {"marks", marks}};

@@ -30,7 +30,10 @@ std::string chance_html(const CompareMark& mark, std::size_t v) {
 
 std::string words(const Contest& contest, const CompareResult& result) {
   const CompareMark& last = result.summary.marks.back();
-  return fmt::format("After {}, {} is ahead{}.", in_words(result.summary.effort, last.at),
+  const std::string interruption = interruption_in_words(contest, result);
+  return fmt::format("{}After {}, {} is ahead{}.",
+                     interruption.empty() ? "" : fmt::format("<b>Interrupted: {}.</b> ", escape_html(interruption)),
+                     in_words(result.summary.effort, last.at),
                      escape_html(contest.variants[last.ranking[0]].name),
                      escape_html(told_apart_in_words(contest, last)));
 }
@@ -92,10 +95,13 @@ std::string marks_html(const Contest& contest, const CompareResult& result) {
   const std::size_t seeds = result.summary.counted.size();
   return html + fmt::format(
       "</tbody></table></div>\n<p class=\"note\">{}p: how often chance alone would set a variant and the first of the "
-      "ranking at least so far apart (exact rank test of Mann and Whitney, two-sided); with {} it cannot be below "
-      "{}.</p>\n", result.optimum > 0 ? fmt::format("In per cent of the most that any model could score, {}. ",
-                                                    readable_number(result.optimum)) : "",
-      counted(seeds, "seed"), chance_in_words(least_rank_test(seeds, seeds)));
+      "ranking at least so far apart (exact rank test of Mann and Whitney, two-sided, by Holm's correction for all "
+      "that are held against the first); with {} and {} it cannot be below {}. The first was chosen by these same "
+      "scores: hold the two that matter against each other again, with other seeds.</p>\n",
+      result.optimum > 0 ? fmt::format("In per cent of the most that any model could score, {}. ",
+                                       readable_number(result.optimum)) : "",
+      counted(seeds, "seed"), counted(contest.variants.size(), "variant"),
+      chance_in_words(least_chance(seeds, contest.variants.size())));
 }
 
 std::string reach_cell(const CompareReach& reach, Effort effort) {
@@ -216,7 +222,7 @@ std::string compare_page(const Contest& contest, const CompareResult& result, co
                         {"settings", settings},
                         {"commands", escape_html(commands(contest, result))},
                         {"command", escape_html(parts.command)},
-                        {"provenance", contest_provenance(contest, *parts.inputs)},
+                        {"provenance", contest_provenance(contest, result.machine, *parts.inputs)},
                         {"data", data_json(contest, result)}});
 }
 

@@ -81,7 +81,7 @@ std::vector<double> marks_reached(const CompareOutcomes& outcomes, const Compare
   }
   std::vector<double> reached;
   for (const double mark : marks)
-    if (mark < least) reached.push_back(mark);
+    if (mark < least && in_words(summary.effort, mark) != in_words(summary.effort, least)) reached.push_back(mark);
   reached.push_back(least);
   return reached;
 }
@@ -113,18 +113,24 @@ CompareMark make_mark(const std::vector<std::vector<double>>& scores, double at)
     return one.median != two.median ? one.median > two.median : one.mean > two.mean;
   });
   const std::size_t best = mark.ranking.front();
+  std::vector<double> others;
   for (std::size_t v = 0; v < scores.size(); ++v)
-    mark.chance.push_back(v == best ? 1.0 : rank_test(scores[best], scores[v]));
+    if (v != best) others.push_back(rank_test(scores[best], scores[v]));
+  mark.chance = holm(others);
+  mark.chance.insert(mark.chance.begin() + static_cast<std::ptrdiff_t>(best), 1.0);
   return mark;
 }
 
+/// Within what the last mark allows: a step that crosses the end of the budget counts no more here than for scores.
 CompareReach reach_of(const CompareOutcomes& outcomes, const CompareSummary& summary, std::size_t who, Effort effort,
                       double score) {
   CompareReach reach;
+  const double most = summary.marks.back().at;
   std::vector<double> needed;  // negative, so that what never came is last
   for (const std::size_t s : summary.counted) {
     const ContestOutcome* const outcome = outcome_of(outcomes, who, s);
-    const std::optional<double> spent = outcome ? outcome->rises.reaching(effort, score) : std::nullopt;
+    const std::optional<double> spent =
+        outcome ? outcome->rises.reaching(effort, score, summary.effort, most) : std::nullopt;
     needed.push_back(spent ? -*spent : kNotAcceptable);
     reach.reached += spent.has_value();
   }
@@ -180,6 +186,10 @@ CompareSummary summarise_contest(const CompareOutcomes& outcomes, const SceneBud
   for (std::size_t v = 0; v < outcomes.size(); ++v)
     summary.evaluations_per_second.push_back(speed_of(outcomes, summary, v));
   return summary;
+}
+
+double least_chance(std::size_t seeds, std::size_t variants) {
+  return holm(std::vector<double>(std::max<std::size_t>(variants, 2) - 1, least_rank_test(seeds, seeds))).front();
 }
 
 std::vector<double> default_marks(const SceneBudget& budget) {

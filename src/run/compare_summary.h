@@ -31,8 +31,12 @@ struct CompareMark {
   double at = 0;
   std::vector<SampleSummary> scores;     // by variant
   std::vector<std::size_t> ranking;      // variants, highest median first
-  std::vector<double> chance;            // by variant: rank_test against the first of the ranking; its own is 1
+  /// By variant: rank_test against the first of the ranking, by Holm's correction for the others; its own is 1.
+  std::vector<double> chance;
 };
+
+/// The least that a mark's chance can come to: of so many seeds, and variants.
+double least_chance(std::size_t seeds, std::size_t variants);
 
 /// How soon a variant came up to a score.
 struct CompareReach {

@@ -45,6 +45,7 @@ class ContestRun {
         setups_.rest();
       }
     }
+    if (!any_found_ && !problem_.empty()) throw Error(problem_);
     return true;
   }
 
@@ -117,7 +118,7 @@ class ContestRun {
 
   void fail(Contender& contender, const std::string& why) {
     const std::string text = fmt::format("{}, seed {}: {}", contest_.variants[contender.variant].name, seed_, why);
-    if (!any_complete_) throw Error(text);
+    if (problem_.empty()) problem_ = text;
     watcher_->warning(text);
     ContestOutcome outcome;
     outcome.variant = contender.variant, outcome.seed = seed_, outcome.problem = why;
@@ -127,7 +128,7 @@ class ContestRun {
   void hand_over(Contender& contender, ContestOutcome outcome) {
     contender.over = true;
     contender.session.reset();
-    if (outcome.complete()) any_complete_ = true;
+    if (outcome.problem.empty()) any_found_ = true;
     ++done_;
     watcher_->ended(outcome);
     take_(std::move(outcome));
@@ -152,23 +153,42 @@ class ContestRun {
   std::uint64_t seed_ = 0;
   StepReport last_;
   std::size_t done_ = 0;
-  bool any_complete_ = false;
+  bool any_found_ = false;
+  std::string problem_;  // of the first that failed
 };
 
 }  // namespace
 
 Setup& ContestSetups::of(std::size_t variant) {
   CHECK(variant < contest_.variants.size());
+  if (!first_) first();
+  return make(variant);
+}
+
+Setup& ContestSetups::first() {
+  if (first_) return make(*first_);
+  std::string problem;
+  for (std::size_t variant = 0; variant < contest_.variants.size(); ++variant) {
+    try {
+      Setup& setup = make(variant);
+      first_ = variant, settled_ = setup.scene.silhouettes;
+      return setup;
+    } catch (const Error& error) {
+      if (problem.empty()) problem = error.what();
+    }
+  }
+  throw Error(problem);
+}
+
+Setup& ContestSetups::make(std::size_t variant) {
   setups_.resize(contest_.variants.size());
   if (setups_[variant]) return *setups_[variant];
-  if (variant > 0 && settled_.empty() && !contest_.variants[0].scene.silhouettes.empty()) of(0);
   Scene scene = contest_.variants[variant].scene;
-  const std::vector<SceneSilhouette>& as_first = contest_.variants[0].scene.silhouettes;
+  const std::vector<SceneSilhouette>& as_first = contest_.variants[first_.value_or(variant)].scene.silhouettes;
   for (std::size_t i = 0; i < std::min(settled_.size(), scene.silhouettes.size()); ++i) {
     if (scene.silhouettes[i] == as_first[i]) scene.silhouettes[i].camera = settled_[i].camera;
   }
   setups_[variant] = set_up(scene, source_);
-  if (variant == 0) settled_ = setups_[0]->scene.silhouettes;
   return *setups_[variant];
 }
 
@@ -179,6 +199,23 @@ void ContestSetups::rest() {
 bool run_contest(const Contest& contest, ContestSetups& setups, Executor& executor, const ContestControl& control,
                  const std::function<void(ContestOutcome)>& take) {
   return ContestRun(contest, setups, executor, control, take).run();
+}
+
+std::size_t failed_of(std::span<const std::optional<ContestOutcome>> searches) {
+  return static_cast<std::size_t>(std::count_if(searches.begin(), searches.end(), [](const auto& search) {
+    return search && !search->problem.empty();
+  }));
+}
+
+std::string failures_in_words(const std::string& name, std::span<const std::optional<ContestOutcome>> searches) {
+  const std::size_t failed = failed_of(searches);
+  if (failed == 0) return "";
+  const auto begun = std::count_if(searches.begin(), searches.end(), [](const auto& one) { return one.has_value(); });
+  const auto first = std::find_if(searches.begin(), searches.end(), [](const auto& search) {
+    return search && !search->problem.empty();
+  });
+  return fmt::format("{}: {} of {} came to nothing; seed {}: {}", name, failed,
+                     begun == 1 ? "1 search" : fmt::format("{} searches", begun), (*first)->seed, (*first)->problem);
 }
 
 std::vector<std::string> warn_of_other_scores(const Contest& contest) {

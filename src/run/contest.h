@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,17 +62,21 @@ class ContestSetups {
   /// Both must outlive it.
   ContestSetups(const Contest& contest, MeshSource& source) : contest_(contest), source_(source) {}
 
-  /// All stand before the same targets: a camera that fits itself does so for the first variant.
+  /// All stand before the same targets: a camera that fits itself does so for the first variant. Throws Error.
   Setup& of(std::size_t variant);
   /// Lets go of what more variants than can be kept would fill memory with.
   void rest();
-  /// Grammar, optimum and warnings are the first's; whether targets can be reached is looked into once.
-  Setup& first() { return of(0); }
+  /// The first that can be made ready: grammar, optimum and warnings are its; whether targets can be reached is looked
+  /// into once. Throws Error where none can be, with what is wrong with the first.
+  Setup& first();
 
  private:
+  Setup& make(std::size_t variant);
+
   const Contest& contest_;
   MeshSource& source_;
   std::vector<std::unique_ptr<Setup>> setups_;
+  std::optional<std::size_t> first_;
   std::vector<SceneSilhouette> settled_;  // of the first
 };
 
@@ -82,10 +87,15 @@ struct ContestControl {
 };
 
 /// Hands each outcome to `take`, in the order of seeds and then of variants within those that search at once. False:
-/// it was stopped. A search that fails becomes an outcome with a problem where another has come to an end before; else
-/// throws Error, naming the variant.
+/// it was stopped. A search that fails becomes an outcome with a problem, and costs no other. Throws Error, the first
+/// of the problems, naming the variant, where it went to its end and every search failed.
 bool run_contest(const Contest& contest, ContestSetups& setups, Executor& executor, const ContestControl& control,
                  const std::function<void(ContestOutcome)>& take);
+
+/// How many of those that were begun failed.
+std::size_t failed_of(std::span<const std::optional<ContestOutcome>> searches);
+/// "small: 2 of 3 searches came to nothing; seed 4: WHY", of the first that failed. Empty: none did.
+std::string failures_in_words(const std::string& name, std::span<const std::optional<ContestOutcome>> searches);
 
 /// A line for every variant whose targets or limits differ from the first's: their scores do not compare.
 std::vector<std::string> warn_of_other_scores(const Contest& contest);

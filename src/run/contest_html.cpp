@@ -94,13 +94,14 @@ std::string warning_list(const std::vector<std::string>& warnings) {
   return items.empty() ? "" : "<ul class=\"warnings\" aria-label=\"Warnings\">\n" + items + "</ul>\n";
 }
 
-std::string contest_provenance(const Contest& contest, const InputFiles& inputs) {
+std::string contest_provenance(const Contest& contest, const ContestMachine& machine, const InputFiles& inputs) {
   std::string html = "<dl>\n";
   const auto row = [&](const std::string& name, const std::string& value) {
     html += fmt::format("<dt>{}</dt><dd><code>{}</code></dd>\n", escape_html(name), escape_html(value));
   };
   row("version", kVersion);
   row("scene", contest.scene_path);
+  if (const std::string words = in_words(machine); !words.empty()) row("machine", words);
   row("seeds", fmt::format("{}", fmt::join(contest.seeds, ", ")));
   for (const auto& [name, hash] : inputs.hashes()) row(name, hash);
   return html + "</dl>\n";

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "run/compare_summary.h"
+#include "run/contest_machine.h"
 
 namespace espalier {
 
@@ -18,7 +19,7 @@ std::string spread_cell(const SampleSummary& summary, double low, double high, c
 
 std::string warning_list(const std::vector<std::string>& warnings);
 /// Version, seeds and the hashes of inputs.
-std::string contest_provenance(const Contest& contest, const InputFiles& inputs);
+std::string contest_provenance(const Contest& contest, const ContestMachine& machine, const InputFiles& inputs);
 
 /// A closed box: what a variant sets, and inside it the settings of its engine, out of a whole settings file.
 std::string settings_box(const ContestVariant& variant, const std::string& settings);

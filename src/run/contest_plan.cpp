@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <set>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -44,13 +44,26 @@ void check_name(const std::string& name) {
   }
 }
 
+/// Some file systems take "X.png" and "x.png" for one.
 void check_names(const std::vector<VariantWords>& variants) {
-  std::set<std::string> names;
+  std::map<std::string, std::string> names;  // without case
   for (const VariantWords& variant : variants) {
-    if (!names.insert(variant.name).second) {
+    std::string plain = variant.name;
+    for (char& c : plain) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    const auto [place, fresh] = names.try_emplace(plain, variant.name);
+    if (fresh) continue;
+    if (place->second == variant.name)
       throw Error(fmt::format("two variants are called {}; --variant \"NAME: ...\" gives names", variant.name));
-    }
+    throw Error(fmt::format("two variants are called {} and {}: names must differ by more than case, they name files",
+                            place->second, variant.name));
   }
+}
+
+/// The part of the scene's settings that all variants share.
+SceneOverrides common_overrides(const ContestWords& words) {
+  SceneOverrides overrides = {words.settings, words.attributes};
+  if (words.seed) overrides.settings.push_back(fmt::format("seed={}", *words.seed));
+  return overrides;
 }
 
 /// What the command line gives; none: nothing.
@@ -129,9 +142,27 @@ VariantWords parse_variant(std::string_view text) {
     if (key.empty() || value.empty()) {
       throw Error(fmt::format("--variant {}: must be KEY=VALUE, got {}", variant.name, quote_toml(member)));
     }
+    check_own_setting(fmt::format("--variant {}: {}", variant.name, key), key);
     variant.settings.push_back(fmt::format("{}={}", key == "engine" ? "search.engine" : key, value));
   }
   return variant;
+}
+
+void check_own_setting(std::string_view where, std::string_view key) {
+  const auto below = [&](std::string_view table) {
+    return key.starts_with(table) && (key.size() == table.size() || key[table.size()] == '.');
+  };
+  if (key == "seed") throw Error(fmt::format("{}: name seeds by --seeds, which all share", where));
+  if (below("budget")) {
+    throw Error(fmt::format("{}: the budget is the same for all; give --time or --evaluations (sweep: or "
+                            "--generations)", where));
+  }
+  if (key == "threads" || key == "espalier" || below("output"))
+    throw Error(fmt::format("{}: no search depends on it", where));
+}
+
+std::vector<std::uint64_t> contest_seeds(const ContestWords& words) {
+  return parse_seeds(words.seeds, load_scene(words.scene, common_overrides(words)).seed);
 }
 
 std::vector<std::uint64_t> parse_seeds(std::string_view text, std::uint64_t first) {
@@ -172,8 +203,7 @@ Contest make_contest(const ContestWords& words, const std::vector<VariantWords>&
   contest.clock = parse_clock(words.clock);
   const std::optional<SceneBudget> given = budget_given(words);
   for (const VariantWords& variant : variants) {
-    SceneOverrides overrides = {words.settings, words.attributes};
-    if (words.seed) overrides.settings.push_back(fmt::format("seed={}", *words.seed));
+    SceneOverrides overrides = common_overrides(words);
     if (given) overrides.settings.push_back(setting_of(*given));
     overrides.settings.insert(overrides.settings.end(), variant.settings.begin(), variant.settings.end());
     try {

@@ -52,11 +52,18 @@ std::vector<std::string> split_list(std::string_view text);
 
 /// "ga,smc": a variant each, of that engine. Throws Error for what is no engine.
 std::vector<VariantWords> parse_engines(std::string_view text);
-/// "NAME: KEY=VALUE, KEY=VALUE": settings of the scene; `engine=X` is short for search.engine=X. Throws Error.
+/// "NAME: KEY=VALUE, KEY=VALUE": settings of the scene; `engine=X` is short for search.engine=X. Throws Error, also for
+/// a setting that all share.
 VariantWords parse_variant(std::string_view text);
+
+/// Throws Error, after `where` ("--vary seed"), for a setting that belongs to all searches alike, or to none.
+void check_own_setting(std::string_view where, std::string_view key);
 
 /// "5": that many from `first` on; "3,7,9": these. Throws Error for none, too many or the same twice.
 std::vector<std::uint64_t> parse_seeds(std::string_view text, std::uint64_t first);
+
+/// The seeds of make_contest, before its variants are known. Throws Error.
+std::vector<std::uint64_t> contest_seeds(const ContestWords& words);
 
 /// "wall" or "computing". Throws Error.
 StopwatchClock parse_clock(std::string_view text);

@@ -18,11 +18,11 @@ std::optional<double> Rises::at(Effort effort, double so_much) const {
   return (after - 1)->row.best;
 }
 
-std::optional<double> Rises::reaching(Effort effort, double score) const {
+std::optional<double> Rises::reaching(Effort effort, double score, Effort limited, double most) const {
   const auto& rows = rises_.rows();
   const auto found = std::lower_bound(rows.begin(), rows.end(), score,
                                       [](const auto& numbered, double value) { return numbered.row.best < value; });
-  if (found == rows.end()) return std::nullopt;
+  if (found == rows.end() || spent(found->row, limited) > most) return std::nullopt;
   return spent(found->row, effort);
 }
 

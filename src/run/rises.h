@@ -32,8 +32,9 @@ class Rises {
   /// The best of the steps that had ended when so much was spent; nothing before the first step's end, nor beyond the
   /// last's.
   std::optional<double> at(Effort effort, double so_much) const;
-  /// What was spent when the best first came up to `score`; nothing: it never did.
-  std::optional<double> reaching(Effort effort, double score) const;
+  /// What was spent when the best first came up to `score`; nothing: it never did, or only after more of `limited` than
+  /// `most` was spent.
+  std::optional<double> reaching(Effort effort, double score, Effort limited, double most) const;
 
  private:
   struct Rise {

@@ -95,6 +95,19 @@ double rank_test(std::span<const double> a, std::span<const double> b) {
   return both.size() <= kMostExact ? exact_share(ranks, a.size(), sum) : normal_share(ranks, a.size(), sum);
 }
 
+std::vector<double> holm(std::span<const double> chances) {
+  std::vector<std::size_t> order(chances.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return chances[i] < chances[j]; });
+  std::vector<double> corrected(chances.size());
+  double least = 0;
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    least = std::max(least, std::min(1.0, static_cast<double>(order.size() - rank) * chances[order[rank]]));
+    corrected[order[rank]] = least;
+  }
+  return corrected;
+}
+
 double least_rank_test(std::size_t a, std::size_t b) {
   std::vector<double> low(a, 0.0), high(b, 0.0);
   for (std::size_t i = 0; i < a; ++i) low[i] = static_cast<double>(i);

@@ -31,6 +31,11 @@ double quantile(std::span<const double> ascending, double share);
 /// distribution. Both samples have a value at least.
 double rank_test(std::span<const double> a, std::span<const double> b);
 
+/// Holm's correction (1979) of several tests made at once, in the order given: with all of them taken together, chance
+/// alone brings any below a limit no more often than the limit says. The least is multiplied by how many there are, the
+/// next by one less, and so on; none falls below a lesser one, or rises above 1.
+std::vector<double> holm(std::span<const double> chances);
+
 /// The least that rank_test can come to for samples of these sizes.
 double least_rank_test(std::size_t a, std::size_t b);
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <fmt/format.h>
+
+#include "base/counted.h"
 #include "io/file.h"
 #include "run/probes.h"
 #include "run/results.h"
@@ -70,6 +73,21 @@ void write_sweep(const SweepRequest& request, const SweepResult& result, Contest
   write_folder(folder, files);
 }
 
+/// The first few in words: the rest say the same.
+void add_failures(const Contest& contest, SweepResult& result) {
+  constexpr std::size_t kMost = 10;
+  std::size_t told = 0, untold = 0;
+  for (std::size_t i = 0; i < result.combinations.size(); ++i) {
+    const std::string failures = failures_in_words(contest.variants[i].name, result.combinations[i].searches);
+    result.failed += failed_of(result.combinations[i].searches);
+    if (failures.empty()) continue;
+    if (told == kMost) ++untold;
+    else result.warnings.push_back(failures), ++told;
+  }
+  if (untold == 0) return;
+  result.warnings.push_back(fmt::format("of {} more some or all came to nothing", counted(untold, "combination")));
+}
+
 }  // namespace
 
 std::optional<SweepResult> sweep_settings(const SweepRequest& request, MeshSource& source) {
@@ -83,7 +101,8 @@ std::optional<SweepResult> sweep_settings(const SweepRequest& request, MeshSourc
   observer.started(contest_start("sweep", request.contest, first, folder.path(), executor->workers()));
   SweepResult result;
   result.grammar = first.graph().name, result.optimum = first.objective.optimum();
-  result.threads = executor->workers(), result.folder = folder.path();
+  result.machine = this_machine(), result.threads = executor->workers();
+  result.folder = folder.path();
   result.combinations.resize(contest.variants.size());
   for (SweepCombination& combination : result.combinations) combination.searches.resize(contest.seeds.size());
   result.warnings = first.warnings;
@@ -98,6 +117,7 @@ std::optional<SweepResult> sweep_settings(const SweepRequest& request, MeshSourc
     take_outcome(contest, std::move(outcome), result, bests);
   });
   if (std::none_of(bests.begin(), bests.end(), [](const auto& best) { return best.has_value(); })) return std::nullopt;
+  add_failures(contest, result);
   summarise_sweep(request, result);
   // Where nothing has a median, what found anything comes before what found nothing.
   std::stable_partition(result.ranking.begin(), result.ranking.end(),

@@ -9,6 +9,7 @@
 
 #include "run/compare_summary.h"
 #include "run/contest_files.h"
+#include "run/contest_machine.h"
 #include "run/contest_progress.h"
 #include "run/sweep_plan.h"
 
@@ -34,10 +35,12 @@ struct SweepCombination {
   double chance = 1;                                    // rank_test against the best combination
 };
 
-/// A value of a setting, over all combinations that have it: of their medians.
+/// A value of a setting, over all combinations that have it: of their medians. One that came to nothing counts as the
+/// worst.
 struct SweepEffect {
   std::string value;
-  std::optional<SampleSummary> medians;
+  std::optional<SampleSummary> medians;  // nothing: no combination with it was searched
+  std::size_t nothing = 0;               // combinations without a median
 };
 
 struct SweepResult {
@@ -48,7 +51,9 @@ struct SweepResult {
   std::string grammar;
   double optimum = 0;
   int threads = 1;
+  ContestMachine machine;
   bool interrupted = false;
+  std::size_t failed = 0;  // searches
   std::vector<std::string> warnings;
   std::string folder;
 };
@@ -58,10 +63,12 @@ std::optional<SweepResult> sweep_settings(const SweepRequest& request, MeshSourc
 
 /// Fills in scores, chances, ranking and effects from the searches (sweep_summary.cpp).
 void summarise_sweep(const SweepRequest& request, SweepResult& result);
-/// How far the medians of a setting's values lie apart.
-double effect_of(const std::vector<SweepEffect>& values);
+/// How far the medians of a setting's values lie apart. Nothing: fewer than two values were searched, or under one of
+/// them most came to nothing.
+std::optional<double> effect_of(const std::vector<SweepEffect>& values);
 
-/// Of a combination's searches, step by step: what `value` gives of the last row at or before each of `steps`.
+/// Of a combination's searches, step by step: what `value` gives of the last row at or before each of `at`. There are
+/// points only where every search has a value: none where one failed.
 CompareCurve sweep_curve(const SweepResult& result, std::size_t combination, const std::vector<double>& at,
                          double (*spent)(const StepReport&), double (*value)(const StepReport&));
 /// Steps to tell of: all of a few hundred, else as axis_points.

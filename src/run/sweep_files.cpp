@@ -88,17 +88,19 @@ std::string sweep_csv(const SweepRequest& request, const SweepResult& result) {
 }
 
 std::string sweep_effects_csv(const SweepRequest& request, const SweepResult& result) {
-  std::string text = "setting,value,combinations,median,median_share,lower_quartile,upper_quartile,min,max\n";
+  std::string text = "setting,value,combinations,median,median_share,lower_quartile,upper_quartile,min,max,"
+                     "came_to_nothing\n";
   for (std::size_t i = 0; i < request.varied.size(); ++i) {
     for (const SweepEffect& effect : result.effects[i]) {
       text += fmt::format("{},{},", csv_field(request.varied[i].key), csv_field(effect.value));
       if (!effect.medians) {
-        text += "0,,,,,,\n";
+        text += "0,,,,,,,0\n";
         continue;
       }
       const SampleSummary& s = *effect.medians;
-      text += fmt::format("{},{},{},{},{},{},{}\n", s.count, s.median, share_field(s.median, result.optimum), s.lower,
-                          s.upper, s.min, s.max);
+      text += fmt::format("{},{},{},{},{},{},{},{}\n", s.count, csv_number(s.median),
+                          share_field(s.median, result.optimum), csv_number(s.lower), csv_number(s.upper),
+                          csv_number(s.min), csv_number(s.max), effect.nothing);
     }
   }
   return text;
@@ -115,7 +117,8 @@ std::string sweep_json(const SweepRequest& request, const SweepResult& result) {
   const Contest& contest = request.contest;
   ordered_json combinations = ordered_json::array(), effects = ordered_json::object();
   for (const std::size_t i : result.ranking) combinations.push_back(json_of(request, result, i));
-  for (std::size_t i = 0; i < request.varied.size(); ++i) effects[request.varied[i].key] = effect_of(result.effects[i]);
+  for (std::size_t i = 0; i < request.varied.size(); ++i)
+    effects[request.varied[i].key] = number_or_null(effect_of(result.effects[i]).value_or(NAN));
   ordered_json budget = ordered_json::object();
   if (contest.budget.seconds) budget["seconds"] = *contest.budget.seconds;
   if (contest.budget.evaluations) budget["evaluations"] = *contest.budget.evaluations;
@@ -127,9 +130,11 @@ std::string sweep_json(const SweepRequest& request, const SweepResult& result) {
                                  {"optimum", result.optimum},
                                  {"budget", budget},
                                  {"threads", result.threads},
+                                 {"machine", json_of(result.machine)},
                                  {"clock", contest.clock == StopwatchClock::wall ? "wall" : "computing"},
                                  {"seeds", contest.seeds},
                                  {"interrupted", result.interrupted},
+                                 {"searches_failed", result.failed},
                                  {"warnings", result.warnings},
                                  {"effects", effects},
                                  {"ranking", combinations}};

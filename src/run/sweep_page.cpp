@@ -53,19 +53,23 @@ std::string effect_rows(const SweepRequest& request, const SweepResult& result, 
   double best = -HUGE_VAL;
   for (const SweepEffect& effect : effects)
     if (effect.medians) best = std::max(best, effect.medians->median);
+  const std::optional<double> apart = effect_of(effects);
   std::string html = fmt::format(
-      "<tr class=\"mark\"><th colspan=\"5\" scope=\"rowgroup\"><span><b>{}</b> values lie {} apart</span></th></tr>\n",
-      escape_html(request.varied[setting].key), score_html(effect_of(effects), result.optimum));
+      "<tr class=\"mark\"><th colspan=\"5\" scope=\"rowgroup\"><span><b>{}</b>{}</span></th></tr>\n",
+      escape_html(request.varied[setting].key),
+      apart ? fmt::format(" values lie {} apart", score_html(*apart, result.optimum)) : "");
   for (const SweepEffect& effect : effects) {
     html += fmt::format("<tr class=\"{}\"><th scope=\"row\"><code>{}</code></th>",
-                        effect.medians && effect.medians->median == best ? "ahead" : "", escape_html(effect.value));
+                        effect.medians && std::isfinite(best) && effect.medians->median == best ? "ahead" : "",
+                        escape_html(effect.value));
     if (!effect.medians) {
       html += "<td>&ndash;</td><td></td><td></td><td></td></tr>\n";
       continue;
     }
-    html += fmt::format("<td>{}</td><td class=\"plain\">{}</td><td class=\"plain\">{}</td>{}</tr>\n",
+    html += fmt::format("<td>{}</td><td class=\"plain\">{}</td><td class=\"plain\">{}{}</td>{}</tr>\n",
                         score_html(effect.medians->median, result.optimum),
                         score_html(effect.medians->max, result.optimum), effect.medians->count,
+                        effect.nothing > 0 ? fmt::format(" ({} came to nothing)", effect.nothing) : "",
                         spread_cell(*effect.medians, low, high, kind_of(setting)));
   }
   return html;
@@ -75,15 +79,18 @@ std::string effects_html(const SweepRequest& request, const SweepResult& result)
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const auto& effects : result.effects) {
     for (const SweepEffect& effect : effects) {
-      if (effect.medians) low = std::min(low, effect.medians->min), high = std::max(high, effect.medians->max);
+      if (!effect.medians || !std::isfinite(effect.medians->max)) continue;
+      high = std::max(high, effect.medians->max);
+      if (std::isfinite(effect.medians->min)) low = std::min(low, effect.medians->min);
     }
   }
   std::string html = "<div class=\"scroll\" tabindex=\"0\"><table class=\"numbers\">\n<thead><tr>"
-                     "<th scope=\"col\">value</th><th scope=\"col\">median</th><th scope=\"col\">most</th><th scope=\"col\">combinations</th>"
+                     "<th scope=\"col\">value</th><th scope=\"col\">median</th><th scope=\"col\">most</th>"
+                     "<th scope=\"col\">combinations</th>"
                      "<th scope=\"col\">least, quartiles, median, most</th></tr></thead>\n<tbody>\n";
   for (std::size_t i = 0; i < request.varied.size(); ++i) html += effect_rows(request, result, i, low, high);
   return html + "</tbody></table></div>\n<p class=\"note\">Each row is over all combinations that have the value: of "
-                "their medians over the seeds.</p>\n";
+                "their medians over the seeds. One that came to nothing counts as the worst.</p>\n";
 }
 
 std::string table_row(const SweepRequest& request, const SweepResult& result, std::size_t rank, double low, double high,
@@ -96,9 +103,7 @@ std::string table_row(const SweepRequest& request, const SweepResult& result, st
     html += fmt::format("<td><code>{}</code></td>", escape_html(request.varied[k].values[request.combinations[i][k]]));
   if (!combination.scores) return html + "<td colspan=\"7\">not begun</td></tr>\n";
   const SampleSummary& s = *combination.scores;
-  const std::size_t failed = static_cast<std::size_t>(
-      std::count_if(combination.searches.begin(), combination.searches.end(),
-                    [](const auto& search) { return search && !search->problem.empty(); }));
+  const std::size_t failed = failed_of(combination.searches);
   html += "<td>" + score_html(s.median, result.optimum) + "</td>";
   for (const double value : {s.iqr(), s.min, s.max})
     html += "<td class=\"plain\">" + score_html(value, result.optimum) + "</td>";
@@ -127,8 +132,9 @@ std::string table_html(const SweepRequest& request, const SweepResult& result, s
   const std::size_t seeds = result.combinations[result.ranking[0]].scores->count;
   return html + fmt::format(
       "</tbody></table></div>\n<p class=\"note\">{}p: how often chance alone would set a combination and the first at "
-      "least so far apart (exact rank test of Mann and Whitney, two-sided); with {} it cannot be below {}. Of many "
-      "combinations some are ahead by chance: try the first ones again with other seeds.</p>\n",
+      "least so far apart (exact rank test of Mann and Whitney, two-sided, not corrected for how many there are); with "
+      "{} it cannot be below {}. Of many combinations some are ahead by chance: try the first ones again with other "
+      "seeds.</p>\n",
       result.optimum > 0 ? fmt::format("In per cent of the most that any model could score, {}. ",
                                        readable_number(result.optimum)) : "",
       counted(seeds, "seed"), chance_in_words(least_rank_test(seeds, seeds)));
@@ -180,7 +186,9 @@ std::string words(const SweepRequest& request, const SweepResult& result) {
   const auto most = std::max_element(result.effects.begin(), result.effects.end(),
                                      [](const auto& a, const auto& b) { return effect_of(a) < effect_of(b); });
   std::string text = "Best: " + escape_html(short_name(request, result.ranking[0])) + ".";
-  if (request.varied.size() > 1) {
+  const bool all = std::all_of(result.effects.begin(), result.effects.end(),
+                               [](const auto& effects) { return effect_of(effects).has_value(); });
+  if (request.varied.size() > 1 && all) {
     text += fmt::format(" What matters most is {}.",
                         escape_html(request.varied[static_cast<std::size_t>(most - result.effects.begin())].key));
   }
@@ -190,8 +198,8 @@ std::string words(const SweepRequest& request, const SweepResult& result) {
 std::string search_line(const SweepRequest& request, const SweepResult& result) {
   const Contest& contest = request.contest;
   std::string text = fmt::format("{} x {}, {} each, taking turns on {}",
-                                 counted(contest.variants.size(), "combination"), counted(contest.seeds.size(), "seed"), in_words(contest.budget),
-                                 counted(static_cast<std::size_t>(result.threads), "thread"));
+                                 counted(contest.variants.size(), "combination"), counted(contest.seeds.size(), "seed"),
+                                 in_words(contest.budget), counted(static_cast<std::size_t>(result.threads), "thread"));
   return text + (result.interrupted ? "; stopped by hand" : "");
 }
 
@@ -221,7 +229,7 @@ std::string sweep_page(const SweepRequest& request, const SweepResult& result, c
        {"curves", shown.size() < result.combinations.size() ? fmt::format("The first {}", shown.size()) : "All"},
        {"settings", escape_html(parts.settings)},
        {"command", escape_html(request.command)},
-       {"provenance", contest_provenance(request.contest, *parts.inputs)},
+       {"provenance", contest_provenance(request.contest, result.machine, *parts.inputs)},
        {"data", data_json(request, result)}});
 }
 

@@ -14,23 +14,13 @@ namespace {
 
 constexpr std::size_t kMostSettings = 16;
 
-/// What belongs to all searches of a sweep alike, or to none.
-void check_key(const std::string& key) {
-  const auto below = [&](const std::string& table) { return key == table || key.starts_with(table + "."); };
-  if (key == "seed") throw Error("--vary seed: name seeds by --seeds, which all combinations share");
-  if (below("budget")) throw Error(fmt::format("--vary {}: the budget is the same for all; give --time, --evaluations "
-                                               "or --generations", key));
-  if (key == "threads" || key == "espalier" || below("output"))
-    throw Error(fmt::format("--vary {}: no search depends on it", key));
-}
-
 VariedSetting parse_one(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
     throw Error(fmt::format("--vary must be KEY=VALUE,VALUE, got {}", quote_toml(text)));
   }
   VariedSetting varied = {text.substr(0, equals), split_list(std::string_view(text).substr(equals + 1))};
-  check_key(varied.key);
+  check_own_setting("--vary " + varied.key, varied.key);
   std::set<std::string> seen;
   for (const std::string& value : varied.values) {
     if (value.empty()) throw Error(fmt::format("--vary {}: a value is empty, in {}", varied.key, quote_toml(text)));

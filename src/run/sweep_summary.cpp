@@ -60,10 +60,10 @@ void find_effects(const SweepRequest& request, SweepResult& result) {
       std::vector<double> medians;
       for (std::size_t i = 0; i < result.combinations.size(); ++i) {
         const std::optional<SampleSummary>& scores = result.combinations[i].scores;
-        if (request.combinations[i][setting] == value && scores && std::isfinite(scores->median))
-          medians.push_back(scores->median);
+        if (request.combinations[i][setting] == value && scores) medians.push_back(scores->median);
       }
       effects.push_back({request.varied[setting].values[value], std::nullopt});
+      effects.back().nothing = static_cast<std::size_t>(std::count(medians.begin(), medians.end(), kNotAcceptable));
       if (!medians.empty()) effects.back().medians = summarise(std::move(medians));
     }
   }
@@ -77,20 +77,24 @@ void summarise_sweep(const SweepRequest& request, SweepResult& result) {
   find_effects(request, result);
 }
 
-double effect_of(const std::vector<SweepEffect>& values) {
+std::optional<double> effect_of(const std::vector<SweepEffect>& values) {
+  std::size_t searched = 0;
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const SweepEffect& effect : values) {
     if (!effect.medians) continue;
+    if (!std::isfinite(effect.medians->median)) return std::nullopt;
+    ++searched;
     low = std::min(low, effect.medians->median), high = std::max(high, effect.medians->median);
   }
-  return high > low ? high - low : 0;
+  if (searched < 2) return std::nullopt;
+  return high - low;
 }
 
 CompareCurve sweep_curve(const SweepResult& result, std::size_t combination, const std::vector<double>& at,
                          double (*spent)(const StepReport&), double (*value)(const StepReport&)) {
   CompareCurve curve;
   for (const std::optional<ContestOutcome>& search : result.combinations[combination].searches) {
-    if (!search || search->steps.empty()) continue;
+    if (!search) continue;
     std::vector<std::optional<double>>& points = curve.searches.emplace_back(at.size());
     const std::vector<StepReport>& steps = search->steps;
     for (std::size_t i = 0; i < at.size(); ++i) {

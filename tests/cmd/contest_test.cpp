@@ -80,6 +80,28 @@ TEST_F(ContestCmd, SweepTellsWhatMatters) {
   EXPECT_EQ(best.exit_code, 0) << best.err;
 }
 
+// The pile's seed is 3: the same combinations are drawn where it is given by hand, and by --seeds.
+TEST_F(ContestCmd, SweepsDrawByTheFirstSeed) {
+  const auto drawn = [&](std::vector<std::string> seeds) {
+    std::vector<std::string> words = {"sweep", "scene.toml", "--vary", "search.population=8,9,10,11,12,13,14,15",
+                                      "--vary", "search.elitism=0,1,2,3", "--random", "2", "--generations", "1",
+                                      "--out", "out"};
+    words.insert(words.end(), seeds.begin(), seeds.end());
+    const ChildResult result = espalier(words);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::vector<std::string> combinations;
+    const auto json = nlohmann::json::parse(read_text(folder_ / "out/sweep.json"));
+    for (const auto& combination : json["ranking"]) combinations.push_back(combination["values"].dump());
+    std::sort(combinations.begin(), combinations.end());
+    return combinations;
+  };
+  const std::vector<std::string> of_scene = drawn({"--seeds", "1"});
+  EXPECT_EQ(of_scene.size(), 2u);
+  EXPECT_EQ(of_scene, drawn({"--seeds", "1", "--seed", "3"}));
+  EXPECT_EQ(of_scene, drawn({"--seeds", "3,9"}));
+  EXPECT_NE(of_scene, drawn({"--seeds", "1", "--seed", "1"}));
+}
+
 TEST_F(ContestCmd, BadInputIsTold) {
   const auto told = [&](std::vector<std::string> arguments, const std::string& words) {
     const ChildResult result = espalier(arguments);
@@ -90,6 +112,11 @@ TEST_F(ContestCmd, BadInputIsTold) {
   told({"compare", "scene.toml", "--engines", ",", "--time", "1"}, "got \"\"");
   told({"compare", "scene.toml", "--seeds", "0", "--time", "1"}, "--seeds must be 1 to 1000, got 0");
   told({"compare", "scene.toml"}, "do not compare");
+  for (const char* option : {"--engines", "--marks", "--seeds", "--clock", "--out", "--variant"})
+    told({"compare", "scene.toml", "--evaluations", "9", option, ""}, std::string(option) + ": must not be empty");
+  told({"compare", "scene.toml", "--evaluations", "9", "--seed", ""}, "--seed: ");
+  told({"sweep", "scene.toml", "--vary", "search.mutation=0,1", "--engine", ""}, "--engine: must not be empty");
+  told({"compare", "scene.toml", "--evaluations", "9", "--variant", "x: seed=7"}, "--variant x: seed: ");
   told({"compare", "none.toml", "--time", "1"}, "none.toml");
   told({"compare", "scene.toml", "--time", "1", "--evaluations", "9"}, "only one can be the budget");
   told({"compare", "scene.toml", "--time", "1", "--variant", "x: search.dance=1"}, "x: scene.toml");

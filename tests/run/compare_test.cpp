@@ -119,6 +119,8 @@ TEST_F(Compare, FilesHoldWhatTheyPromise) {
   const auto json = nlohmann::json::parse(read_text(folder_ / "out/compare.json"));
   EXPECT_EQ(json["seeds_counted"], (std::vector<int>{3, 4}));
   EXPECT_EQ(json["marks"].back()["evaluations"], 700);
+  EXPECT_EQ(json["machine"], nlohmann::json::parse(json_of(this_machine()).dump()));
+  EXPECT_FALSE(json["cut_short"]);
   EXPECT_EQ(json["marks"].back()["variants"]["ga"]["median"], result.summary.marks.back().scores[0].median);
   // A curve never falls, and its last point is the score.
   for (const CompareCurve& curve : result.summary.axis(Effort::evaluations).curves) {
@@ -152,7 +154,9 @@ TEST_F(Compare, StoppedByHandItEndsWithWhatIsThere) {
   EXPECT_EQ(result.outcomes[0][1]->stopped_by, "interrupt");
   EXPECT_FALSE(result.outcomes[1][1]) << "had not begun";
   EXPECT_THAT(read_text(folder_ / "out/searches.csv"), HasSubstr(",interrupt\n"));
-  EXPECT_THAT(read_text(folder_ / "out/compare.html"), HasSubstr("stopped by hand, 2 seeds planned"));
+  EXPECT_THAT(read_text(folder_ / "out/compare.html"),
+              AllOf(HasSubstr("stopped by hand, 2 seeds planned"),
+                    HasSubstr("Interrupted: stopped by hand: these are of the 1 of 2 seeds that all")));
 
   stop = true;
   request.out = folder_ / "none";
@@ -174,7 +178,11 @@ TEST_F(Compare, StoppedInItsFirstSeedItTellsOfThatMuch) {
   const CompareResult result = compare(request);
   EXPECT_TRUE(result.summary.partial);
   EXPECT_LT(result.summary.marks.back().at, 1000) << "as far as both came, not the budget";
-  EXPECT_THAT(read_text(folder_ / "out/compare.html"), HasSubstr("stopped by hand before any seed was done"));
+  EXPECT_THAT(interruption_in_words(request.contest, result),
+              HasSubstr("no seed was completed: these are of seed 3, cut short after "));
+  EXPECT_THAT(read_text(folder_ / "out/compare.html"),
+              AllOf(HasSubstr("stopped by hand before any seed was done"), HasSubstr("Interrupted: no seed was")));
+  EXPECT_TRUE(nlohmann::json::parse(read_text(folder_ / "out/compare.json"))["cut_short"]);
 }
 
 TEST_F(Compare, ASearchThatFailsIsToldAndCostsNoOther) {
@@ -183,21 +191,29 @@ TEST_F(Compare, ASearchThatFailsIsToldAndCostsNoOther) {
   std::vector<VariantWords> variants = parse_engines("ga");
   variants.push_back(parse_variant("ratio: engine=smc, search.weight=ratio, volume.outside_weight=1000"));
   CompareRequest request = pile_comparison(folder_, "out", variants);
-  request.slice_seconds = 0;
-  try {
-    compare_variants(request, source_);
-    ADD_FAILURE() << "nothing was lost yet: it ends at once";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("ratio, seed 3: "));
-  }
-  EXPECT_FALSE(fs::exists(folder_ / "out"));
-  request.slice_seconds = 1e9;  // ga is done before the other begins
+  request.slice_seconds = 0;  // ratio fails before ga is done
   const CompareResult result = compare(request);
   EXPECT_FALSE(result.outcomes[1][0]->problem.empty());
   EXPECT_FALSE(result.bests[1]);
-  EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("ratio has other targets or limits than ga")));
+  EXPECT_EQ(result.failed, 2u);
+  EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("ratio has other targets or limits than ga"),
+                                           HasSubstr("ratio: 2 of 2 searches came to nothing; seed 3: ")));
+  EXPECT_EQ(nlohmann::json::parse(read_text(folder_ / "out/compare.json"))["searches_failed"], 2);
   EXPECT_EQ(result.summary.marks.back().ranking, (std::vector<std::size_t>{0, 1}));
   EXPECT_FALSE(fs::exists(folder_ / "out/ratio.toml"));
+}
+
+TEST_F(Compare, WhereNothingCameOfAnySearchItSaysWhy) {
+  const CompareRequest request = pile_comparison(
+      folder_, "out", {parse_variant("one: engine=ga, limits.parts.min=90, limits.parts.max=90, limits.genes.max=8"),
+                       parse_variant("two: engine=smc, search.weight=ratio, volume.outside_weight=1000")});
+  try {
+    compare_variants(request, source_);
+    ADD_FAILURE() << "nothing to tell of";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("one, seed 3: none of "));
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
 }  // namespace

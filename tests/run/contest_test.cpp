@@ -40,6 +40,12 @@ TEST(Contest, VariantsAreReadAndNamed) {
   EXPECT_THAT(error_of([] { parse_variant("no colon"); }), HasSubstr("--variant must be \"NAME: KEY=VALUE"));
   EXPECT_THAT(error_of([] { parse_variant("a/b: engine=ga"); }), HasSubstr("letters, digits"));
   EXPECT_THAT(error_of([] { parse_variant("a: engine"); }), HasSubstr("a: must be KEY=VALUE, got \"engine\""));
+  EXPECT_THAT(error_of([] { parse_variant("a: engine=ga, seed=77"); }), HasSubstr("--variant a: seed: name seeds by"));
+  for (const char* key : {"budget.evaluations", "budget"})
+    EXPECT_THAT(error_of([&] { parse_variant(std::string("a: ") + key + "=5"); }), HasSubstr("the same for all"));
+  for (const char* key : {"output.keep", "threads"})
+    EXPECT_THAT(error_of([&] { parse_variant(std::string("a: ") + key + "=5"); }), HasSubstr("no search depends on"));
+  EXPECT_THAT(parse_variant("a: seeds=5, budgets.x=1").settings, ElementsAre("seeds=5", "budgets.x=1"));
   EXPECT_THAT(error_of([] { parse_engines("ga,gaa"); }), HasSubstr("--engines must be of ga, smc, sosmc, rjmcmc,"));
   EXPECT_THAT(error_of([] { parse_engines(""); }), HasSubstr("got \"\""));
 }
@@ -73,6 +79,23 @@ TEST(Contest, OneBudgetForAll) {
   EXPECT_THAT(error_of([&] { make_contest(words, parse_engines("ga"), false); }), HasSubstr("do not compare"));
   EXPECT_EQ(make_contest(words, parse_engines("ga"), true).budget, (SceneBudget{{}, {}, 6}));
   EXPECT_THAT(error_of([&] { make_contest(words, parse_engines("ga,ga"), true); }), HasSubstr("two variants are"));
+  EXPECT_THAT(error_of([&] { make_contest(words, {{"X", {}}, {"y", {}}, {"x", {}}}, true); }),
+              HasSubstr("X and x: names must differ by more than case"));
+}
+
+// The scene's seed is 3.
+TEST(Contest, SeedsAreKnownBeforeTheVariants) {
+  const TemporaryFolder folder;
+  write_pile(folder);
+  ContestWords words;
+  words.scene = folder / "scene.toml", words.seeds = "2";
+  EXPECT_THAT(contest_seeds(words), ElementsAre(3, 4));
+  words.settings = {"seed=8"};
+  EXPECT_THAT(contest_seeds(words), ElementsAre(8, 9));
+  words.seed = 5;
+  EXPECT_THAT(contest_seeds(words), ElementsAre(5, 6));
+  words.seeds = "9,7";
+  EXPECT_THAT(contest_seeds(words), ElementsAre(9, 7));
 }
 
 TEST(Contest, RisesTellTheBestAtAnyTime) {
@@ -87,9 +110,12 @@ TEST(Contest, RisesTellTheBestAtAnyTime) {
   EXPECT_EQ(rises.at(Effort::evaluations, 30), 8);
   EXPECT_EQ(rises.at(Effort::evaluations, 45), 8);
   EXPECT_EQ(rises.at(Effort::evaluations, 46), std::nullopt);
-  EXPECT_EQ(rises.reaching(Effort::seconds, 3), 0.5);
-  EXPECT_EQ(rises.reaching(Effort::evaluations, 3.5), 30);
-  EXPECT_EQ(rises.reaching(Effort::evaluations, 9), std::nullopt);
+  EXPECT_EQ(rises.reaching(Effort::seconds, 3, Effort::seconds, 9), 0.5);
+  EXPECT_EQ(rises.reaching(Effort::evaluations, 3.5, Effort::evaluations, 30), 30);
+  EXPECT_EQ(rises.reaching(Effort::evaluations, 3.5, Effort::evaluations, 29), std::nullopt);
+  EXPECT_EQ(rises.reaching(Effort::evaluations, 3.5, Effort::seconds, 2), 30);
+  EXPECT_EQ(rises.reaching(Effort::evaluations, 3.5, Effort::seconds, 1.9), std::nullopt);
+  EXPECT_EQ(rises.reaching(Effort::evaluations, 9, Effort::seconds, 9), std::nullopt);
 }
 
 TEST(Contest, RisesStayFewAndNear) {
@@ -137,7 +163,8 @@ TEST(Contest, MarksRanksAndReachAreThoseWorkedOutByHand) {
   EXPECT_DOUBLE_EQ(summary.marks[1].chance[0], 2.0 / 6);
   const auto& seconds = summary.reach[0];
   EXPECT_EQ(seconds[1][0].median, 8.5);    // b passed 65 after 8 and 9 s
-  EXPECT_EQ(seconds[0][1].reached, 1u);    // a's 99 came late; of two, one is no median
+  EXPECT_EQ(seconds[0][1].reached, 0u);    // a's 99 came after ten seconds
+  EXPECT_EQ(summary.reach[1][0][1].reached, 0u);
   EXPECT_EQ(seconds[0][1].median, std::nullopt);
   EXPECT_EQ(summary.reach[1][1][0].median, 9);
   EXPECT_DOUBLE_EQ(summary.evaluations_per_second[0], 80.0 / 21);
@@ -147,6 +174,42 @@ TEST(Contest, MarksRanksAndReachAreThoseWorkedOutByHand) {
   EXPECT_TRUE(std::find(axis.at.begin(), axis.at.end(), 2.0) != axis.at.end()) << "marks are points";
   EXPECT_FALSE(axis.curves[1].points.front());
   EXPECT_EQ(axis.curves[1].points.back()->mean, 85);
+}
+
+// Five seeds; `first` above all, `near` mingled with it, two below all of it: p of the rank test 2/252 twice, and of
+// `near` (ranks of first: 2 4 6 8 10, 30 against a mean of 27.5) much more. Holm: 3 x 2/252 for the two.
+TEST(Contest, ChancesAreCorrectedForHowManyThereAre) {
+  const SceneBudget budget = {10.0, {}, {}};
+  CompareOutcomes outcomes(4);
+  for (int seed = 0; seed < 5; ++seed) {
+    const auto add = [&](std::size_t variant, double score) {
+      outcomes[variant].push_back(searched({{1, 10, 1, score, 0}, {2, 20, 10, score, 0}}, budget));
+    };
+    add(0, 10 + seed), add(1, 102 + 2 * seed), add(2, 20 + seed), add(3, 101 + 2 * seed);
+  }
+  const CompareMark mark = summarise_contest(outcomes, budget, {10}).marks.back();
+  EXPECT_EQ(mark.ranking.front(), 1u);
+  EXPECT_DOUBLE_EQ(mark.chance[0], 3 * 2.0 / 252);
+  EXPECT_EQ(mark.chance[1], 1);
+  EXPECT_DOUBLE_EQ(mark.chance[2], 3 * 2.0 / 252);
+  EXPECT_GT(mark.chance[3], 0.5);
+  EXPECT_DOUBLE_EQ(least_chance(5, 4), 3 * 2.0 / 252);
+  EXPECT_DOUBLE_EQ(least_chance(5, 2), 2.0 / 252);
+  EXPECT_DOUBLE_EQ(least_chance(5, 1), 2.0 / 252);
+  EXPECT_DOUBLE_EQ(least_chance(1, 8), 1);
+}
+
+// Cut short just after a mark: 0.5 s and 0.50005 s are one and the same to a reader.
+TEST(Contest, ASearchCutShortHasNoMarkTwice) {
+  const SceneBudget budget = {60.0, {}, {}};
+  CompareOutcomes outcomes(1);
+  outcomes[0].push_back(searched({{1, 10, 0.1, 50, 0}, {2, 20, 0.50005, 60, 0}}, budget));
+  outcomes[0].back()->stopped_by = "interrupt";
+  const CompareSummary summary = summarise_contest(outcomes, budget, {0.2, 0.5, 5, 60});
+  EXPECT_TRUE(summary.partial);
+  std::vector<double> at;
+  for (const CompareMark& mark : summary.marks) at.push_back(mark.at);
+  EXPECT_THAT(at, ElementsAre(0.2, 0.50005));
 }
 
 TEST(Contest, MarksLieWithinTheBudget) {

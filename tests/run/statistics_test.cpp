@@ -83,6 +83,20 @@ TEST(Statistics, TheRankTestAgreesWithTryingAll) {
   EXPECT_DOUBLE_EQ(rank_test(a, b), static_cast<double>(far) / all);
 }
 
+// Four tests: 0.005 x 4 = 0.02, 0.01 x 3 = 0.03, 0.03 x 2 = 0.06, 0.04 x 1 = 0.04, which may not be below 0.06.
+TEST(Statistics, HolmsCorrectionIsThatWorkedOutByHand) {
+  const std::vector<double> corrected = holm(std::vector{0.01, 0.04, 0.03, 0.005});
+  const std::vector<double> expected = {0.03, 0.06, 0.06, 0.02};
+  ASSERT_EQ(corrected.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_DOUBLE_EQ(corrected[i], expected[i]) << i;
+  EXPECT_EQ(holm(std::vector{0.04}), (std::vector{0.04})) << "one test needs none";
+  EXPECT_EQ(holm(std::vector{0.5, 0.75}), (std::vector{1.0, 1.0}));
+  EXPECT_EQ(holm(std::vector{0.25, 0.25}), (std::vector{0.5, 0.5}));
+  EXPECT_TRUE(holm({}).empty());
+  // Five variants of five seeds, all apart from the first as far as can be: 4 x 2/252.
+  for (const double chance : holm(std::vector(4, least_rank_test(5, 5)))) EXPECT_DOUBLE_EQ(chance, 8.0 / 252);
+}
+
 TEST(Statistics, LargeSamplesAreNearTheExactTest) {
   std::vector<double> a, b;
   for (int i = 0; i < 25; ++i) a.push_back(i), b.push_back(i + 7.5);

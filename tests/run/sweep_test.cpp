@@ -68,6 +68,7 @@ TEST_F(Sweep, EveryCombinationIsSearchedAndRanked) {
   EXPECT_THAT(curves, AllOf(HasSubstr("\n1,8,0.1,1,2,8,"), HasSubstr("\n6,40,1.0,3,2,")));
   const auto json = nlohmann::json::parse(read_text(folder_ / "out/sweep.json"));
   EXPECT_EQ(json["ranking"][0]["combination"], result.ranking[0] + 1);
+  EXPECT_EQ(json["machine"], nlohmann::json::parse(json_of(this_machine()).dump()));
 }
 
 TEST_F(Sweep, TheSceneOfTheBestIsReadyToRun) {
@@ -92,6 +93,61 @@ TEST_F(Sweep, GroupsChangeNothing) {
   const SweepResult two = sweep(threads);
   EXPECT_EQ(two.ranking, many.ranking);
   EXPECT_EQ(read_text(folder_ / "threads/best.glb"), read_text(folder_ / "many/best.glb"));
+}
+
+// A pile of 90 parts of 8 genes there is not. Both orders: the first search that ends is not what decides.
+TEST_F(Sweep, AValueThatCannotBeCostsNoOther) {
+  for (const char* values : {"limits.parts.min=90,1", "limits.parts.min=1,90"}) {
+    const bool bad_first = std::string(values).ends_with(",1");
+    ContestWords words = pile_words(folder_, 150);
+    words.settings.emplace_back("limits.genes.max=8");
+    SweepRequest request = pile_sweep(folder_, "out", {values, "search.mutation=0.1,0.9"}, words);
+    request.curves = true;
+    const SweepResult result = sweep(request);
+    EXPECT_EQ(result.failed, 4u);
+    EXPECT_EQ(result.ranking[0] / 2, bad_first ? 1u : 0u);
+    const std::size_t bad = bad_first ? 0 : 1;
+    EXPECT_EQ(result.effects[0][bad].medians->median, kNotAcceptable);
+    EXPECT_EQ(result.effects[0][bad].nothing, 2u);
+    EXPECT_EQ(result.effects[0][1 - bad].nothing, 0u);
+    EXPECT_EQ(effect_of(result.effects[0]), std::nullopt) << "nothing is no distance apart";
+    // With either mutation one of two combinations came to nothing: no survivor speaks for it.
+    EXPECT_EQ(result.effects[1][0].nothing, 1u);
+    EXPECT_EQ(result.effects[1][0].medians->count, 2u);
+    EXPECT_FALSE(std::isfinite(result.effects[1][0].medians->median));
+    EXPECT_THAT(result.warnings, ::testing::Contains(HasSubstr("2 of 2 searches came to nothing; seed 3: none of ")));
+    EXPECT_THAT(read_text(folder_ / "out/effects.csv"), HasSubstr("\nlimits.parts.min,90,2,,,,,,,2\n"));
+    const auto json = nlohmann::json::parse(read_text(folder_ / "out/sweep.json"));
+    EXPECT_TRUE(json["effects"]["limits.parts.min"].is_null());
+    EXPECT_EQ(json["searches_failed"], 4);
+    EXPECT_THAT(read_text(folder_ / "out/sweep.html"), HasSubstr("(2 came to nothing)"));
+  }
+}
+
+TEST_F(Sweep, AVariantThatCannotBeMadeReadyCostsNoOther) {
+  testing::write_text(folder_ / "broken.esp", "this is no grammar");
+  const SweepResult result =
+      sweep(pile_sweep(folder_, "out", {"grammar=broken.esp,pile.esp"}, pile_words(folder_, 100)));
+  EXPECT_EQ(result.failed, 2u);
+  EXPECT_EQ(result.ranking[0], 1u);
+  EXPECT_EQ(result.grammar, "pile");
+}
+
+// Three searches of one combination, of which one failed: the others do not make its curve.
+TEST(SweepCurve, HasNoPointsWhereASearchFailed) {
+  SweepResult result;
+  ContestOutcome found, failed;
+  found.steps = {{1, 10, 0.5, 3, 2}, {2, 20, 1.0, 5, 4}};
+  failed.problem = "why";
+  result.combinations = {{{found, found}, {}, 1}, {{found, failed}, {}, 1}};
+  const auto curve = [&](std::size_t combination) {
+    return sweep_curve(result, combination, {1, 2}, [](const StepReport& r) { return static_cast<double>(r.step); },
+                       [](const StepReport& r) { return r.best; });
+  };
+  ASSERT_TRUE(curve(0).points[1]);
+  EXPECT_EQ(curve(0).points[1]->mean, 5);
+  EXPECT_FALSE(curve(1).points[0]);
+  EXPECT_FALSE(curve(1).points[1]);
 }
 
 TEST_F(Sweep, BadInputNamesTheCombination) {
