@@ -48,6 +48,14 @@ void declare_threads(CLI::App* verb, int& threads) {
       ->check(CLI::Range(0, 1024));
 }
 
+void refuse_empty_values(const CLI::App* verb) {
+  for (const CLI::Option* option : verb->get_options()) {
+    for (const std::string& value : option->results()) {
+      if (value.empty()) throw CLI::ValidationError(option->get_name(), "must not be empty, got \"\"");
+    }
+  }
+}
+
 void declare_compare(CLI::App& app, CompareOptions& o, std::function<int()>& chosen) {
   CLI::App* verb = app.add_subcommand("compare", "Search a scene with several engines or settings, side by side");
   declare_contest(verb, o);

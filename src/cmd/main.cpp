@@ -127,7 +127,10 @@ void declare_run(CLI::App& app, CommandLine& line) {
   verb->add_option("--keep", o.keep, "Alternatives to keep beside the best");
   verb->add_option("--out", o.out, "Folder to write (out/NAME); an earlier run there is replaced");
   verb->add_flag("--json", o.json, "Events as JSON lines");
-  verb->callback([&line] { line.verb = [&line] { return run_verb(line.run); }; });
+  verb->callback([&line, verb] {
+    refuse_empty_values(verb);
+    line.verb = [&line] { return run_verb(line.run); };
+  });
 }
 
 void declare_preview(CLI::App& app, CommandLine& line) {

@@ -80,9 +80,13 @@ ResumeRequest request_of(const RunVerbOptions& options) {
   for (const auto& [given, name] : others) {
     if (given) throw Error(fmt::format("{} does not go with --resume: that goes on with the same search", name));
   }
-  // The rules that a scene's budget has.
+  // The rules that scenes and the parser have; but NaN is within any range of the latter.
   if (options.seconds && !(*options.seconds >= 1e-3 && *options.seconds <= 1e7)) {
     throw Error(fmt::format("--time must be a number from 0.001 to 1e7, got {}", *options.seconds));
+  }
+  const std::optional<double>& every = options.checkpoint_seconds;
+  if (every && !(*every >= 1e-3 && *every <= 1e6)) {
+    throw Error(fmt::format("--checkpoint-every must be a number from 0.001 to 1e6, got {}", *every));
   }
   if (options.evaluations == 0u || options.generations == 0u) {
     throw Error("--evaluations and --generations must be at least 1, got 0");

@@ -1,5 +1,7 @@
 #include "run/checkpoint.h"
 
+#include <cmath>
+#include <limits>
 #include <sstream>
 #include <unordered_set>
 
@@ -8,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/printable.h"
 #include "base/version.h"
 #include "derivation/sample.h"
 #include "io/file.h"
@@ -77,22 +80,67 @@ json head_of(const Checkpoint& c) {
           {"refresh_seconds", c.refresh_seconds}, {"checkpoint_seconds", c.checkpoint_seconds}};
 }
 
+constexpr std::uint64_t kMostWhole = std::numeric_limits<std::uint64_t>::max();
+constexpr double kMostSeconds = 1e6, kAnything = std::numeric_limits<double>::max();
+
+[[noreturn]] void fail_head(const char* key, const std::string& rule, const json& value) {
+  constexpr std::size_t kMostShown = 60;
+  const std::string got = value.dump(-1, ' ', true, json::error_handler_t::replace);
+  throw Error(fmt::format("it is damaged: {} must be {}, got {}{}", key, rule, got.substr(0, kMostShown),
+                          got.size() > kMostShown ? "..." : ""));
+}
+
+/// The library's own conversions wrap around and cut off silently.
+std::uint64_t whole_in(const json& head, const char* key, std::uint64_t most) {
+  const json& value = head.at(key);
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) {
+    fail_head(key, fmt::format("a whole number from 0 to {}", most), value);
+  }
+  return value.get<std::uint64_t>();
+}
+
+double number_in(const json& head, const char* key, double low, double high) {
+  const json& value = head.at(key);
+  const double number = value.is_number() ? value.get<double>() : std::nan("");
+  if (!(number >= low && number <= high)) fail_head(key, fmt::format("a number from {:g} to {:g}", low, high), value);
+  return number;
+}
+
+/// Names are of files below the run's folder, each in one way of writing only.
+void check_names(const std::map<std::string, std::string>& inputs) {
+  for (const auto& [name, hash] : inputs) {
+    std::string_view rest = name;
+    bool sound = name.starts_with("inputs/") && name.find('\0') == std::string::npos;
+    for (bool more = true; more && sound;) {
+      const std::size_t slash = rest.find('/');
+      const std::string_view part = rest.substr(0, slash);
+      sound = !part.empty() && part != "." && part != "..";
+      more = slash != std::string_view::npos;
+      if (more) rest.remove_prefix(slash + 1);
+    }
+    if (!sound) throw Error(fmt::format("it is damaged: inputs must be files below inputs/, got \"{}\"", name));
+  }
+}
+
 Checkpoint with_head(const json& head) {
   Checkpoint c;
   head.at("version").get_to(c.version);
   head.at("grammar").get_to(c.grammar);
   head.at("engine").get_to(c.engine);
-  head.at("seed").get_to(c.seed);
-  head.at("step").get_to(c.step);
-  head.at("evaluations").get_to(c.evaluations);
-  head.at("seconds").get_to(c.seconds);
-  head.at("best").get_to(c.best);
+  c.seed = whole_in(head, "seed", kMostWhole);
+  c.step = whole_in(head, "step", kMostWhole);
+  c.evaluations = whole_in(head, "evaluations", kMostWhole);
+  c.seconds = number_in(head, "seconds", 0, kAnything);
+  c.best = number_in(head, "best", -kAnything, kAnything);
   head.at("inputs").get_to(c.inputs);
+  check_names(c.inputs);
   head.at("settings").get_to(c.settings);
   head.at("out").get_to(c.out);
-  head.at("threads").get_to(c.threads);
-  head.at("refresh_seconds").get_to(c.refresh_seconds);
-  head.at("checkpoint_seconds").get_to(c.checkpoint_seconds);
+  // As scenes have them.
+  c.threads = static_cast<int>(whole_in(head, "threads", 1024));
+  c.refresh_seconds = number_in(head, "refresh_seconds", 0, kMostSeconds);
+  c.checkpoint_seconds = number_in(head, "checkpoint_seconds", 0, kMostSeconds);
+  if (c.checkpoint_seconds == 0) fail_head("checkpoint_seconds", "above 0", head.at("checkpoint_seconds"));
   return c;
 }
 
@@ -160,7 +208,7 @@ Checkpoint read_checkpoint(const std::string& path) {
   try {
     return parse_checkpoint(bytes);
   } catch (const Error& error) {
-    throw Error(fmt::format("{}: cannot be continued from: {}", path, error.what()));
+    throw Error(fmt::format("{}: cannot be continued from: {}", path, printable(error.what())));
   }
 }
 

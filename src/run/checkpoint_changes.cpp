@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/printable.h"
 #include "base/version.h"
 #include "io/file.h"
 #include "run/scene_toml.h"
@@ -43,8 +44,22 @@ Scene without_what_may_differ(Scene scene) {
 
 }  // namespace
 
-Scene scene_of(const Checkpoint& checkpoint) {
-  return parse_scene(checkpoint.settings, "settings of the checkpoint", "");
+Scene scene_of(const Checkpoint& checkpoint, const std::string& file) {
+  return parse_scene(checkpoint.settings, file + ": its settings", "");
+}
+
+std::vector<std::string> input_changes(const std::map<std::string, std::string>& now,
+                                       const std::map<std::string, std::string>& before) {
+  std::vector<std::string> changes;
+  for (const auto& [name, hash] : before) {
+    const auto is = now.find(name);
+    if (is == now.end()) changes.push_back(printable(name) + " is missing");
+    else if (is->second != hash) changes.push_back(printable(name) + " is not what it was");
+  }
+  for (const auto& [name, hash] : now) {
+    if (!before.contains(name)) changes.push_back(printable(name) + " was no part of it");
+  }
+  return changes;
 }
 
 std::vector<std::string> setting_changes(const Scene& now, const Scene& before) {
@@ -65,17 +80,16 @@ std::vector<std::string> folder_changes(const std::string& folder, const Scene& 
   std::vector<std::string> changes;
   if (checkpoint.version != kVersion) {
     changes.push_back(fmt::format("this is version {} of Espalier, the checkpoint was written by {}", kVersion,
-                                  checkpoint.version));
+                                  printable(checkpoint.version)));
   }
+  std::map<std::string, std::string> now_there;
   for (const auto& [name, hash] : checkpoint.inputs) {
     const std::string path = (std::filesystem::path(folder) / name).string();
-    if (!std::filesystem::exists(path)) {
-      changes.push_back(fmt::format("{} is missing", name));
-    } else if (content_hash(read_file(path)) != hash) {
-      changes.push_back(fmt::format("{} is not what it was", name));
-    }
+    if (std::filesystem::exists(path)) now_there[name] = content_hash(read_file(path));
   }
-  for (std::string& change : setting_changes(now, scene_of(checkpoint))) changes.push_back("run.toml: " + change);
+  for (std::string& change : input_changes(now_there, checkpoint.inputs)) changes.push_back(std::move(change));
+  const Scene before = scene_of(checkpoint, (std::filesystem::path(folder) / kCheckpointName).string());
+  for (std::string& change : setting_changes(now, before)) changes.push_back("run.toml: " + change);
   return changes;
 }
 

@@ -1,16 +1,18 @@
 // Going on from checkpoints.
 #include <algorithm>
 #include <filesystem>
-#include <map>
+#include <optional>
 #include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "io/file.h"
 #include "run/checkpoint_changes.h"
 #include "run/founders.h"
+#include "run/partial_folder.h"
 #include "run/results.h"
 #include "run/resume_point.h"
 #include "run/run_job.h"
@@ -31,6 +33,9 @@ Scene scene_in(const ResumePoint& point, const ResumeRequest& request) {
   scene.threads = request.threads.value_or(c.threads);
   scene.refresh_seconds = c.refresh_seconds;
   scene.checkpoint_seconds = request.checkpoint_seconds.value_or(c.checkpoint_seconds);
+  if (!(scene.checkpoint_seconds > 0)) {  // a run that goes on without keeping any would lose the one that there is
+    throw Error(fmt::format("seconds between checkpoints must be above 0, got {}", scene.checkpoint_seconds));
+  }
   if (is_given(request.budget)) scene.budget = request.budget;
   return scene;
 }
@@ -52,21 +57,8 @@ void expect_budget_left(const ResumePoint& point, const SceneBudget& budget) {
                           point.folder, spent));
 }
 
-/// Removes what an ended process may have half written: all but what the search needs, and the report people watch.
-void tidy(const std::string& folder, const std::map<std::string, std::string>& inputs) {
-  constexpr const char* kKept[] = {kCheckpointName, kRunMarker, "inputs", FolderLock::kName, "report.html", "best.png"};
-  std::vector<fs::path> stale;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const auto is_kept = [&](const char* name) { return entry.path().filename() == name; };
-    if (std::none_of(std::begin(kKept), std::end(kKept), is_kept)) stale.push_back(entry.path());
-  }
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(folder) / "inputs")) {
-    const std::string name = entry.path().lexically_relative(folder).generic_string();
-    if (!entry.is_directory() && !inputs.contains(name)) stale.push_back(entry.path());
-  }
-  std::error_code ignored;
-  for (const fs::path& path : stale) fs::remove_all(path, ignored);
-}
+/// The lines of an error that may repeat bytes of the checkpoint.
+std::string told_safely(const Error& error) { return printable(error.what(), true); }
 
 class Resumption {
  public:
@@ -80,12 +72,14 @@ class Resumption {
     expect_budget_left(point_, scene_.budget);
     executor_ = make_tbb_executor(scene_.threads);
     const std::unique_ptr<Setup> setup = set_up(scene_, source_);
+    changes = input_changes(setup->inputs.hashes(), point_.checkpoint.inputs);
+    if (!changes.empty()) return run_changed(changes);
     SearchSession session(*setup, *executor_);
     try {
       std::istringstream state(point_.checkpoint.state);
       session.load(state);
     } catch (const Error& error) {
-      return run_changed({error.what()});
+      return run_changed({told_safely(error)});
     }
     return go_on(*setup, session);
   }
@@ -95,13 +89,25 @@ class Resumption {
   bool go_on(const Setup& setup, SearchSession& session) {
     const std::string from = point_.folder;
     const bool adopted = point_.lock && path_ == point_.path;
-    if (adopted) tidy(from, point_.checkpoint.inputs);
+    // First of all: where the path cannot be taken, nothing is touched.
     RunFolder folder =
         adopted ? RunFolder(path_, kRunMarker, from, std::move(*point_.lock)) : RunFolder(path_, kRunMarker);
-    const bool done = do_run({setup, folder, *executor_, session, observer_of(options_), options_.stop, from});
-    std::error_code ignored;
-    if (done && !adopted && point_.lock) fs::remove_all(from, ignored);
+    std::vector<std::string> notes;
+    std::optional<PartialFolder> partial;
+    if (!point_.finished()) partial.emplace(from, point_.checkpoint.inputs);
+    if (partial) warn_of_foreign(*partial, adopted, notes);
+    warn_of_moved(path_, notes);
+    if (adopted) partial->tidy();
+    const bool done = do_run({setup, folder, *executor_, session, observer_of(options_), options_.stop, from, notes});
+    if (done && partial && !adopted) partial->remove();
     return done;
+  }
+
+  void warn_of_foreign(const PartialFolder& partial, bool adopted, std::vector<std::string>& warnings) const {
+    if (partial.foreign().empty()) return;
+    warnings.push_back(fmt::format("{} holds what no run wrote, {} in all: {}; {}", point_.folder,
+                                   partial.foreign().size(), printable(partial.foreign().front()),
+                                   adopted ? "it comes along into " + path_ : "it stays there"));
   }
 
   bool run_changed(const std::vector<std::string>& changes) {

@@ -28,4 +28,7 @@ ResumePoint find_resume_point(const std::string& path);
 /// "out/ship.partial-Ab12Cd (step 120)".
 std::vector<std::string> left_behind(const std::string& path);
 
+/// The earlier runs of that name (PATH.replaced-XXXXXX) whose removal a kill or a power cut has prevented.
+std::vector<std::string> moved_aside(const std::string& path);
+
 }  // namespace espalier

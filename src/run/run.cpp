@@ -83,7 +83,8 @@ bool do_run(const RunJob& job) {
   const Setup& setup = job.setup;
   const Scene& scene = setup.scene;
   job.observer.started(start_of(job));
-  for (const std::string& warning : setup.warnings) job.observer.warning(warning);
+  for (const auto* warnings : {&setup.warnings, &job.notes})
+    for (const std::string& warning : *warnings) job.observer.warning(warning);
 
   SearchControl control;
   control.budget = scene.budget;
@@ -114,6 +115,13 @@ bool do_run(const RunJob& job) {
   return true;
 }
 
+void warn_of_moved(const std::string& path, std::vector<std::string>& warnings) {
+  for (const std::string& moved : moved_aside(path)) {
+    warnings.push_back(fmt::format("{} is an earlier run of that name, which another was to replace when it was "
+                                   "killed; delete it, or give it a name", moved));
+  }
+}
+
 bool run_scene(const Scene& scene, const RunOptions& options, MeshSource& source) {
   RunObserver silent;
   RunObserver& observer = options.observer ? *options.observer : silent;
@@ -122,12 +130,13 @@ bool run_scene(const Scene& scene, const RunOptions& options, MeshSource& source
   // Before the search, so that an unusable folder costs no search.
   RunFolder folder(options.out, kRunMarker);
   for (std::string& warning : warn_of_reach(*setup, find_reach(*setup))) setup->warnings.push_back(std::move(warning));
+  std::vector<std::string> notes;
   for (const std::string& left : left_behind(options.out)) {
-    setup->warnings.push_back(fmt::format("an interrupted run left {} behind; `espalier run --resume` continues it",
-                                          left));
+    notes.push_back(fmt::format("an interrupted run left {} behind; `espalier run --resume` continues it", left));
   }
+  warn_of_moved(options.out, notes);
   SearchSession session(*setup, *executor);
-  return do_run({*setup, folder, *executor, session, observer, options.stop});
+  return do_run({*setup, folder, *executor, session, observer, options.stop, "", notes});
 }
 
 }  // namespace espalier

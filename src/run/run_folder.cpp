@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <utility>
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -26,14 +28,27 @@ std::string make_unique_sibling(const std::string& path, const char* what) {
   return name;
 }
 
+/// Lets the two change names in one step. False where the file system cannot, or there is no `b`; then nothing is done.
+bool swap_names(const std::string& a, const std::string& b) {
+  return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
+}
+
+/// Makes renames in the folder last through a power cut; file systems that cannot sync a folder are no failure.
+void sync_folder(const fs::path& folder) {
+  const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  static_cast<void>(::fsync(file));
+  ::close(file);
+}
+
 }  // namespace
 
-std::string folder_path(const std::string& path) {
-  if (path.empty()) throw Error("--out must name a folder, got \"\"");
+std::string folder_path(const std::string& path, std::string_view option) {
+  if (path.empty()) throw Error(fmt::format("{} must name a folder, got \"\"", option));
   fs::path p = fs::path(path).lexically_normal();
   if (!p.has_filename()) p = p.parent_path();
   if (p.empty() || p == p.root_path() || p.filename() == "." || p.filename() == "..") {
-    throw Error(fmt::format("--out must name a folder of its own, got \"{}\"", path));
+    throw Error(fmt::format("{} must name a folder of its own, got \"{}\"", option, path));
   }
   return p.string();
 }
@@ -77,17 +92,34 @@ void RunFolder::commit() {
   std::string old;
   if (fs::exists(path_)) {
     old = make_unique_sibling(path_, "replaced");
-    fs::rename(path_, old, error);
-  }
-  if (!error) fs::rename(staging_, path_, error);
-  if (error && !old.empty()) {
-    std::error_code ignored;
-    fs::rename(old, path_, ignored);
+    error = replace(old);
+  } else {
+    fs::rename(staging_, path_, error);
   }
   if (error) throw Error(fmt::format("{}: cannot give the finished folder its name: {}", path_, error.message()));
   staging_kept_ = true;
+  sync_folder(fs::path(path_).parent_path());  // before the earlier run goes
   fs::remove(fs::path(path_) / FolderLock::kName, error);
   if (!old.empty()) fs::remove_all(old, error);
+}
+
+/// The earlier folder moves to `old`, which is empty. Where names can be exchanged there is a whole folder of the name
+/// at any moment.
+std::error_code RunFolder::replace(const std::string& old) {
+  std::error_code error, ignored;
+  if (swap_names(staging_, path_)) {
+    fs::rename(staging_, old, ignored);
+    if (ignored) fs::remove_all(staging_, ignored);
+    return error;
+  }
+  fs::rename(path_, old, error);
+  if (error) {
+    fs::remove(old, ignored);
+    return error;
+  }
+  fs::rename(staging_, path_, error);
+  if (error) fs::rename(old, path_, ignored);
+  return error;
 }
 
 void RunFolder::guard() {

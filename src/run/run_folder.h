@@ -5,13 +5,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "run/folder_lock.h"
 
 namespace espalier {
 
-/// "a/b/" and "a/b/." are a/b. Throws Error for what names no folder of its own.
-std::string folder_path(const std::string& path);
+/// "a/b/" and "a/b/." are a/b. Throws Error, naming the option, for what names no folder of its own.
+std::string folder_path(const std::string& path, std::string_view option = "--out");
 
 class RunFolder {
  public:
@@ -36,6 +37,7 @@ class RunFolder {
 
  private:
   void open(std::string_view marker) const;
+  std::error_code replace(const std::string& old);
 
   std::string path_, staging_;
   std::optional<FolderLock> lock_;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/printable.h"
 #include "derivation/encode.h"
 #include "derivation/sample.h"
 
@@ -39,7 +40,8 @@ void read_head(StateReader& reader, std::uint64_t magic, std::uint64_t version, 
     throw Error(fmt::format("saved state: version must be {}, got {}", version, got));
   }
   if (const std::string got = reader.text(); got != fingerprint) {
-    throw Error(fmt::format("saved state: it belongs to another search\n  saved: {}\n  this:  {}", got, fingerprint));
+    throw Error(fmt::format("saved state: it belongs to another search\n  saved: {}\n  this:  {}", printable(got),
+                            fingerprint));
   }
 }
 

@@ -111,8 +111,28 @@ TEST_F(ResumeCommand, WhatDoesNotGoTogetherIsRefused) {
   EXPECT_THAT(refused({"--resume", "out", "--lock", "A"}), HasSubstr("--lock does not go with"));
   EXPECT_THAT(refused({"--resume", "out", "--time", "-1"}), HasSubstr("--time must be"));
   EXPECT_THAT(refused({"--resume", "out", "--generations", "0"}), HasSubstr("must be at least 1"));
+  EXPECT_THAT(refused({"--resume", "out", "--checkpoint-every", "nan"}), HasSubstr("--checkpoint-every must be"));
+  EXPECT_THAT(refused({"--resume", "/"}), HasSubstr("--resume must name a folder of its own, got \"/\""));
   EXPECT_THAT(refused({"a.toml", "--checkpoint-every", "0"}), HasSubstr("--checkpoint-every"));
   EXPECT_THAT(refused({"--resume", "nowhere"}), HasSubstr("nowhere: holds no checkpoint"));
+}
+
+TEST_F(ResumeCommand, AnEmptyValueIsNotAnOptionThatWasNotGiven) {
+  const std::string scene = std::string(ESPALIER_SOURCE_DIR) + "/scenes/spaceship.toml";
+  for (const char* option : {"--from", "--out", "--engine", "--lock", "--resume", "--set", "--time"}) {
+    for (const bool joined : {false, true}) {
+      std::vector<std::string> words = {"run", scene, "--generations", "1", "--keep", "0"};
+      if (joined) words.push_back(std::string(option) + "=");
+      else words.insert(words.end(), {option, ""});
+      const ChildResult result = espalier(words);
+      EXPECT_EQ(result.exit_code, 2) << option;
+      EXPECT_THAT(result.err, HasSubstr(option));
+    }
+  }
+  const ChildResult result = espalier({"run", "", "--resume", "out"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("scene: must not be empty"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
 }  // namespace

@@ -1,5 +1,13 @@
 #include "run/run_folder.h"
 
+#include <fcntl.h>
+#include <sys/inotify.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <utility>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -74,6 +82,36 @@ TEST(RunFolder, ReplacesAnEarlierOneWhole) {
   EXPECT_EQ(read_text(temporary / "out/run.toml"), "new");
   EXPECT_FALSE(fs::exists(temporary / "out/extra"));
   EXPECT_EQ(entries(temporary.path()), 1u);
+}
+
+TEST(RunFolder, ThereIsAWholeFolderOfTheNameAtAnyMoment) {
+  const TemporaryFolder temporary;
+  write_text(temporary / "out/run.toml", "old");
+  fs::create_directories(temporary / "probe/a"), fs::create_directories(temporary / "probe/b");
+  const std::string a = temporary / "probe/a", b = temporary / "probe/b";
+  if (::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) != 0) {
+    GTEST_SKIP() << "this file system cannot exchange names";
+  }
+  RunFolder folder(temporary / "out", "run.toml");
+  write_text(folder.staging() + "/run.toml", "new");
+  const int events = ::inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+  ASSERT_GE(events, 0);
+  ASSERT_GE(::inotify_add_watch(events, temporary.path().c_str(), IN_MOVED_FROM | IN_MOVED_TO | IN_DELETE), 0);
+  folder.commit();
+  alignas(inotify_event) char buffer[8192];
+  const ssize_t size = ::read(events, buffer, sizeof buffer);
+  ::close(events);
+  std::vector<std::pair<std::string, bool>> moves;  // of "out": whether there is one after it
+  for (ssize_t i = 0; i < size;) {
+    const auto* event = reinterpret_cast<const inotify_event*>(buffer + i);
+    if (event->len > 0 && std::string(event->name) == "out") moves.emplace_back("out", event->mask & IN_MOVED_TO);
+    i += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
+  }
+  // Exchanged: the new one came in the step in which the old one went, and the kernel tells of it first.
+  ASSERT_FALSE(moves.empty());
+  EXPECT_TRUE(moves.front().second) << "the earlier folder was moved away before the new one came";
+  EXPECT_EQ(read_text(temporary / "out/run.toml"), "new");
+  EXPECT_EQ(entries(temporary.path()), 2u);
 }
 
 TEST(RunFolder, TakesAnEmptyFolder) {
