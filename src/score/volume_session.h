@@ -15,7 +15,7 @@ namespace espalier {
 class VolumeSession final : public TargetSession {
  public:
   /// Models of fewer parts are counted as a whole, which takes no longer.
-  static constexpr std::size_t kFewestParts = 64;
+  static constexpr std::size_t kFewestParts = 32;
 
   /// Both must outlive it. Takes its memory when it is first worth it.
   VolumeSession(const VolumeTarget& target, const VolumeKernel& kernel) : target_(target), kernel_(kernel) {}
