@@ -7,10 +7,6 @@
 namespace espalier {
 namespace {
 
-/// An empty value is a slip, as of a variable of a shell that is not set: never "not given".
-const CLI::Validator kNotEmpty([](std::string& text) { return std::string(text.empty() ? "must not be empty" : ""); },
-                               "", "not empty");
-
 /// What compare and sweep share.
 void declare_contest(CLI::App* verb, ContestOptions& o) {
   verb->add_option("scene", o.scene, "Scene file (.toml)")->required();
@@ -23,12 +19,6 @@ void declare_contest(CLI::App* verb, ContestOptions& o) {
   declare_settings(verb, o.settings);
   declare_attributes(verb, o.attributes);
   verb->add_flag("--json", o.json, "Events as JSON lines");
-}
-
-void forbid_empty(CLI::App* verb) {
-  for (CLI::Option* option : verb->get_options()) {
-    if (option->get_items_expected_max() > 0) option->check(kNotEmpty);
-  }
 }
 
 }  // namespace
@@ -65,8 +55,10 @@ void declare_compare(CLI::App& app, CompareOptions& o, std::function<int()>& cho
       ->expected(1)->take_all();
   verb->add_option("--marks", o.marks, "Seconds, or evaluations, at which scores are told: 1,5,30 (a few)");
   verb->add_option("--out", o.out, "Folder to write (out/NAME-compare); an earlier comparison there is replaced");
-  forbid_empty(verb);
-  verb->callback([&o, &chosen] { chosen = [&o] { return compare_verb(o); }; });
+  verb->callback([verb, &o, &chosen] {
+    refuse_empty_values(verb);
+    chosen = [&o] { return compare_verb(o); };
+  });
 }
 
 void declare_sweep(CLI::App& app, SweepOptions& o, std::function<int()>& chosen) {
@@ -81,8 +73,10 @@ void declare_sweep(CLI::App& app, SweepOptions& o, std::function<int()>& chosen)
       ->check(CLI::Range(1, 1000));
   verb->add_flag("--curves", o.curves, "Write curves.csv: best and mean of the population, step by step");
   verb->add_option("--out", o.out, "Folder to write (out/NAME-sweep); an earlier sweep there is replaced");
-  forbid_empty(verb);
-  verb->callback([&o, &chosen] { chosen = [&o] { return sweep_verb(o); }; });
+  verb->callback([verb, &o, &chosen] {
+    refuse_empty_values(verb);
+    chosen = [&o] { return sweep_verb(o); };
+  });
 }
 
 }  // namespace espalier

@@ -1,7 +1,6 @@
 // espalier run: a scene, searched until its budget is spent or Ctrl-C.
 #include "run/run.h"
 
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "cmd/interrupt.h"
 #include "cmd/verbs.h"
 #include "io/mesh_import.h"
 #include "run/find_derivation.h"
@@ -19,15 +19,6 @@
 
 namespace espalier {
 namespace {
-
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-// The first signal ends the search with the best so far; a second one has its usual effect.
-extern "C" void request_stop(int signal) {
-  stop_requested = true;
-  std::signal(signal, SIG_DFL);
-}
 
 /// What is found behind a name that may be a run's folder or a model too.
 std::string start_at(const std::string& from) {
@@ -111,10 +102,8 @@ int run_verb(const RunVerbOptions& options) {
   const std::unique_ptr<RunObserver> observer = make_observer(options.json);
   RunOptions run;
   run.out = options.out;
-  run.stop = &stop_requested;
+  run.stop = stop_on_signals();
   run.observer = observer.get();
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
   AssimpMeshSource source;
   if (resumes) return resume_run(request_of(options), run, source) ? kDone : kDiffers;
   if (run.out.empty()) run.out = (fs::path("out") / fs::path(options.scene).stem()).string();

@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "io/file.h"
 #include "run/compare_page.h"
-#include "run/probes.h"
 
 namespace espalier {
 namespace {
@@ -80,13 +79,6 @@ class CompareFolder {
   ComparePageParts page_;
 };
 
-void look_for_warnings(const CompareRequest& request, ContestSetups& setups, CompareResult& result) {
-  Setup& first = setups.first();
-  result.warnings = first.warnings;
-  for (const std::string& line : warn_of_reach(first, find_reach(first))) result.warnings.push_back(line);
-  for (const std::string& line : warn_of_other_scores(request.contest)) result.warnings.push_back(line);
-}
-
 }  // namespace
 
 std::optional<CompareResult> compare_variants(const CompareRequest& request, MeshSource& source) {
@@ -103,12 +95,9 @@ std::optional<CompareResult> compare_variants(const CompareRequest& request, Mes
   RunFolder folder(request.out, kCompareMarker);
   observer.started(contest_start("compare", request.contest, first, folder.path(), executor->workers()));
   CompareResult result;
-  result.grammar = first.graph().name, result.optimum = first.objective.optimum();
-  result.machine = this_machine(), result.threads = executor->workers();
-  result.folder = folder.path();
+  begin_result(contest, setups, folder.path(), executor->workers(), result);
   result.bests.resize(contest.variants.size());
   result.outcomes.assign(contest.variants.size(), std::vector<std::optional<ContestOutcome>>(contest.seeds.size()));
-  look_for_warnings(request, setups, result);
   for (const std::string& warning : result.warnings) observer.warning(warning);
 
   const ContestControl control = {request.slice_seconds, request.stop, &observer};

@@ -9,8 +9,8 @@
 
 #include "run/compare_summary.h"
 #include "run/contest_files.h"
-#include "run/contest_machine.h"
 #include "run/contest_progress.h"
+#include "run/contest_result.h"
 
 namespace espalier {
 
@@ -27,18 +27,10 @@ struct CompareRequest {
   ContestObserver* observer = nullptr;  // may be null
 };
 
-struct CompareResult {
+struct CompareResult : ContestResult {
   CompareOutcomes outcomes;  // without what is large
   CompareSummary summary;
   std::vector<std::optional<ContestBest>> bests;  // by variant
-  std::string grammar;
-  double optimum = 0;
-  int threads = 1;
-  ContestMachine machine;
-  bool interrupted = false;
-  std::size_t failed = 0;  // searches
-  std::vector<std::string> warnings;
-  std::string folder;
 };
 
 /// Nothing if it was stopped before there was any result; then no folder is left behind. Throws Error.

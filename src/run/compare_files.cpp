@@ -4,17 +4,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "base/version.h"
+#include "run/csv.h"
+#include "run/json_number.h"
 #include "run/compare.h"
 
 namespace espalier {
 namespace {
 
 using nlohmann::ordered_json;
-
-std::string share_field(double score, double optimum) { return csv_number(optimum > 0 ? score / optimum : NAN); }
-
-ordered_json number_or_null(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); }
 
 std::string number_of(Effort effort, double spent) {
   return effort == Effort::seconds ? csv_number(spent) : fmt::format("{:.0f}", spent);
@@ -64,7 +61,7 @@ std::string compare_csv(const Contest& contest, const CompareResult& result) {
         for (std::size_t i = 0; i < points.size(); ++i) {
           if (!points[i]) continue;
           text += fmt::format("{},{},{},{},{},{}\n", contest.variants[v].name, contest.seeds[s], name_of(effort),
-                              number_of(effort, axis.at[i]), *points[i], share_field(*points[i], result.optimum));
+                              number_of(effort, axis.at[i]), *points[i], csv_share(*points[i], result.optimum));
         }
       }
     }
@@ -83,7 +80,7 @@ std::string compare_summary_csv(const Contest& contest, const CompareResult& res
       const SampleSummary& s = mark.scores[v];
       text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", contest.variants[v].name,
                           name_of(summary.effort), number_of(summary.effort, mark.at), rank + 1, csv_number(s.median),
-                          share_field(s.median, result.optimum), csv_number(s.mean), csv_number(s.deviation),
+                          csv_share(s.median, result.optimum), csv_number(s.mean), csv_number(s.deviation),
                           csv_number(s.iqr()), csv_number(s.min), csv_number(s.max), s.count,
                           csv_number(mark.chance[v]), csv_number(summary.evaluations_per_second[v]));
     }
@@ -120,7 +117,7 @@ std::string compare_searches_csv(const Contest& contest, const CompareResult& re
       }
       const double score = outcome->score.value_or(NAN);
       text += fmt::format("{},{},{},{},{},{},{:.6f},{},{},{}\n", who, csv_number(score),
-                          share_field(score, result.optimum), outcome->best.score, outcome->evaluations,
+                          csv_share(score, result.optimum), outcome->best.score, outcome->evaluations,
                           outcome->step_count, outcome->seconds, outcome->genes, outcome->derivation,
                           outcome->stopped_by);
     }
@@ -134,26 +131,14 @@ std::string compare_json(const Contest& contest, const CompareResult& result) {
   for (std::size_t v = 0; v < contest.variants.size(); ++v) variants.push_back(json_of(contest, result, v));
   for (const CompareMark& mark : summary.marks) marks.push_back(json_of(contest, mark, summary.effort));
   for (const std::size_t s : summary.counted) counted.push_back(contest.seeds[s]);
-  ordered_json budget = ordered_json::object();
-  if (contest.budget.seconds) budget["seconds"] = *contest.budget.seconds;
-  if (contest.budget.evaluations) budget["evaluations"] = *contest.budget.evaluations;
-  const ordered_json document = {{"espalier_compare", 1},
-                                 {"version", kVersion},
-                                 {"grammar", result.grammar},
-                                 {"scene", contest.scene_path},
-                                 {"optimum", result.optimum},
-                                 {"budget", budget},
-                                 {"threads", result.threads},
-                                 {"machine", json_of(result.machine)},
-                                 {"clock", contest.clock == StopwatchClock::wall ? "wall" : "computing"},
-                                 {"seeds", contest.seeds},
-                                 {"seeds_counted", counted},
-                                 {"interrupted", result.interrupted},
-                                 {"cut_short", summary.partial},
-                                 {"searches_failed", result.failed},
-                                 {"warnings", result.warnings},
-                                 {"variants", variants},
-                                 {"marks", marks}};
+  ordered_json document = head_json("espalier_compare", contest, result);
+  document["seeds_counted"] = counted;
+  document["interrupted"] = result.interrupted;
+  document["cut_short"] = summary.partial;
+  document["searches_failed"] = result.failed;
+  document["warnings"] = result.warnings;
+  document["variants"] = variants;
+  document["marks"] = marks;
   return document.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

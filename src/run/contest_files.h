@@ -51,10 +51,4 @@ using FolderFile = std::pair<std::string, std::function<void(const std::string& 
 /// and an Error says where.
 void write_folder(RunFolder& folder, const std::vector<FolderFile>& files);
 
-/// A field of a CSV file: in quotes where it has to be.
-std::string csv_field(const std::string& text);
-/// A number that reads back as the same; empty where it is not finite.
-std::string csv_number(double value);
-std::string csv_number(const std::optional<double>& value);
-
 }  // namespace espalier

@@ -1,9 +1,9 @@
 // Progress as JSON lines.
-#include <cmath>
 #include <ostream>
 
 #include <nlohmann/json.hpp>
 
+#include "run/json_number.h"
 #include "run/progress.h"
 
 namespace espalier {
@@ -45,7 +45,7 @@ class JsonLines final : public RunObserver {
   void gauges(const StepReport& report, const std::vector<NamedGauge>& gauges) override {
     ordered_json values = ordered_json::object();
     for (const NamedGauge& gauge : gauges) {
-      values[gauge.name] = std::isfinite(gauge.value) ? ordered_json(gauge.value) : ordered_json();
+      values[gauge.name] = number_or_null(gauge.value);
     }
     print({{"event", "gauges"}, {"step", report.step}, {"evaluations", report.evaluations}, {"gauges", values}});
   }

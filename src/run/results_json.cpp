@@ -1,12 +1,12 @@
 // The numbers of a run: result.json and convergence.csv.
-#include <cmath>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/version.h"
 #include "io/file.h"
+#include "run/csv.h"
 #include "run/explanation_json.h"
+#include "run/json_number.h"
 #include "run/results.h"
 
 namespace espalier {
@@ -17,24 +17,9 @@ namespace {
 
 ordered_json gauges_json(const SearchLog& log) {
   ordered_json gauges = ordered_json::object();
-  if (log.gauge_rows().empty()) return gauges;
-  const std::vector<double>& values = log.gauge_rows().back().row.values;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    gauges[log.gauge_names()[i]] = std::isfinite(values[i]) ? ordered_json(values[i]) : ordered_json();
-  }
+  for (const NamedGauge& gauge : log.last_gauges()) gauges[gauge.name] = number_or_null(gauge.value);
   return gauges;
 }
-
-/// Where a name holds a comma, or a quote, it is quoted (RFC 4180).
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
-/// A number, or nothing.
-std::string number_cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 /// Evaluations per second between two rows.
 std::string speed_cell(const StepReport& from, const StepReport& to) {
@@ -101,13 +86,13 @@ void ResultWriter::write_convergence(const std::string& path) const {
 
 void ResultWriter::write_diagnostics(const std::string& path) const {
   std::string text = "step,evaluations,seconds,evaluations_per_second";
-  for (const std::string& name : result_.log.gauge_names()) text += "," + csv_cell(name);
+  for (const std::string& name : result_.log.gauge_names()) text += "," + csv_field(name);
   text += "\n";
   StepReport before;
   for (const auto& [number, row] : result_.log.gauge_rows()) {
     const StepReport& r = row.report;
     text += fmt::format("{},{},{:.6f},{}", r.step, r.evaluations, r.seconds, speed_cell(before, r));
-    for (const double value : row.values) text += "," + number_cell(value);
+    for (const double value : row.values) text += "," + csv_number(value);
     text += "\n";
     before = r;
   }

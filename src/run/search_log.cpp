@@ -64,6 +64,14 @@ std::vector<StepReport> SearchLog::steps() const {
   return steps;
 }
 
+std::vector<NamedGauge> SearchLog::last_gauges() const {
+  std::vector<NamedGauge> gauges;
+  if (gauges_.rows().empty()) return gauges;
+  const std::vector<double>& values = gauges_.rows().back().row.values;
+  for (std::size_t i = 0; i < values.size(); ++i) gauges.push_back({names_[i], values[i]});
+  return gauges;
+}
+
 void SearchLog::save(StateWriter& writer) const {
   writer.u64(steps_.stride());
   writer.u64(steps_.rows().size());

@@ -32,6 +32,8 @@ class SearchLog {
   /// The first step, the last, and those between as far as they are kept.
   std::vector<StepReport> steps() const;
   const std::vector<std::string>& gauge_names() const { return names_; }
+  /// Of the last row; none before the first.
+  std::vector<NamedGauge> last_gauges() const;
   const std::vector<Thinned<GaugeRow>::Numbered>& gauge_rows() const { return gauges_.rows(); }
 
   void save(StateWriter& writer) const;

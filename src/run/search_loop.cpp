@@ -20,7 +20,7 @@ std::optional<SearchResult> run_search(SearchSession& session, const SearchContr
   while (reason.empty()) {
     const StepReport report = session.step();
     if (control.observer) control.observer->step(report);
-    if (control.observer && session.logged_gauges()) control.observer->gauges(report, session.gauges());
+    if (control.observer && session.logged_gauges()) control.observer->gauges(report, session.log().last_gauges());
     if (control.watcher) control.watcher->stepped(report, session.engine().best());
     reason = reason_to_stop(control, report);
     if (control.keeper && reason.empty()) control.keeper->stepped(session);

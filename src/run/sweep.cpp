@@ -7,7 +7,6 @@
 
 #include "base/counted.h"
 #include "io/file.h"
-#include "run/probes.h"
 #include "run/results.h"
 #include "run/thinned.h"
 
@@ -100,14 +99,9 @@ std::optional<SweepResult> sweep_settings(const SweepRequest& request, MeshSourc
   RunFolder folder(request.out, kSweepMarker);
   observer.started(contest_start("sweep", request.contest, first, folder.path(), executor->workers()));
   SweepResult result;
-  result.grammar = first.graph().name, result.optimum = first.objective.optimum();
-  result.machine = this_machine(), result.threads = executor->workers();
-  result.folder = folder.path();
+  begin_result(contest, setups, folder.path(), executor->workers(), result);
   result.combinations.resize(contest.variants.size());
   for (SweepCombination& combination : result.combinations) combination.searches.resize(contest.seeds.size());
-  result.warnings = first.warnings;
-  for (const std::string& line : warn_of_reach(first, find_reach(first))) result.warnings.push_back(line);
-  for (const std::string& line : warn_of_other_scores(contest)) result.warnings.push_back(line);
   for (const std::string& warning : result.warnings) observer.warning(warning);
 
   std::vector<std::optional<ContestBest>> bests(contest.variants.size());

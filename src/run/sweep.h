@@ -9,8 +9,8 @@
 
 #include "run/compare_summary.h"
 #include "run/contest_files.h"
-#include "run/contest_machine.h"
 #include "run/contest_progress.h"
+#include "run/contest_result.h"
 #include "run/sweep_plan.h"
 
 namespace espalier {
@@ -43,19 +43,11 @@ struct SweepEffect {
   std::size_t nothing = 0;               // combinations without a median
 };
 
-struct SweepResult {
+struct SweepResult : ContestResult {
   std::vector<SweepCombination> combinations;
   std::vector<std::size_t> ranking;               // of combinations, highest median first
   std::vector<std::vector<SweepEffect>> effects;  // by setting, by value
   std::vector<std::size_t> counted;               // seeds that all completed; none: each by what it has
-  std::string grammar;
-  double optimum = 0;
-  int threads = 1;
-  ContestMachine machine;
-  bool interrupted = false;
-  std::size_t failed = 0;  // searches
-  std::vector<std::string> warnings;
-  std::string folder;
 };
 
 /// Nothing if it was stopped before there was any result; then no folder is left behind. Throws Error.

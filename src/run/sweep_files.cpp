@@ -4,15 +4,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "base/version.h"
+#include "run/csv.h"
+#include "run/json_number.h"
 #include "run/sweep.h"
 
 namespace espalier {
 namespace {
 
 using nlohmann::ordered_json;
-
-std::string share_field(double score, double optimum) { return csv_number(optimum > 0 ? score / optimum : NAN); }
 
 /// The columns of the varied settings, each followed by a comma.
 std::string key_fields(const SweepRequest& request) {
@@ -47,8 +46,6 @@ void add_curve(const SweepRequest& request, const SweepResult& result, std::size
   }
 }
 
-ordered_json number_or_null(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); }
-
 ordered_json json_of(const SweepRequest& request, const SweepResult& result, std::size_t i) {
   const SweepCombination& combination = result.combinations[i];
   ordered_json values = ordered_json::object();
@@ -79,7 +76,7 @@ std::string sweep_csv(const SweepRequest& request, const SweepResult& result) {
         continue;
       }
       const double score = search->score.value_or(NAN);
-      text += fmt::format("{},{},{},{},{},{:.6f},{},{},{}\n", csv_number(score), share_field(score, result.optimum),
+      text += fmt::format("{},{},{},{},{},{:.6f},{},{},{}\n", csv_number(score), csv_share(score, result.optimum),
                           search->best.score, search->evaluations, search->step_count, search->seconds, search->genes,
                           search->derivation, search->stopped_by);
     }
@@ -99,7 +96,7 @@ std::string sweep_effects_csv(const SweepRequest& request, const SweepResult& re
       }
       const SampleSummary& s = *effect.medians;
       text += fmt::format("{},{},{},{},{},{},{},{}\n", s.count, csv_number(s.median),
-                          share_field(s.median, result.optimum), csv_number(s.lower), csv_number(s.upper),
+                          csv_share(s.median, result.optimum), csv_number(s.lower), csv_number(s.upper),
                           csv_number(s.min), csv_number(s.max), effect.nothing);
     }
   }
@@ -119,25 +116,12 @@ std::string sweep_json(const SweepRequest& request, const SweepResult& result) {
   for (const std::size_t i : result.ranking) combinations.push_back(json_of(request, result, i));
   for (std::size_t i = 0; i < request.varied.size(); ++i)
     effects[request.varied[i].key] = number_or_null(effect_of(result.effects[i]).value_or(NAN));
-  ordered_json budget = ordered_json::object();
-  if (contest.budget.seconds) budget["seconds"] = *contest.budget.seconds;
-  if (contest.budget.evaluations) budget["evaluations"] = *contest.budget.evaluations;
-  if (contest.budget.generations) budget["generations"] = *contest.budget.generations;
-  const ordered_json document = {{"espalier_sweep", 1},
-                                 {"version", kVersion},
-                                 {"grammar", result.grammar},
-                                 {"scene", contest.scene_path},
-                                 {"optimum", result.optimum},
-                                 {"budget", budget},
-                                 {"threads", result.threads},
-                                 {"machine", json_of(result.machine)},
-                                 {"clock", contest.clock == StopwatchClock::wall ? "wall" : "computing"},
-                                 {"seeds", contest.seeds},
-                                 {"interrupted", result.interrupted},
-                                 {"searches_failed", result.failed},
-                                 {"warnings", result.warnings},
-                                 {"effects", effects},
-                                 {"ranking", combinations}};
+  ordered_json document = head_json("espalier_sweep", contest, result);
+  document["interrupted"] = result.interrupted;
+  document["searches_failed"] = result.failed;
+  document["warnings"] = result.warnings;
+  document["effects"] = effects;
+  document["ranking"] = combinations;
   return document.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -45,6 +45,17 @@ inline std::string document_of(const std::string& page, int milliseconds = 6000,
   return out;
 }
 
+/// A copy of a page with a script of the test at its end, which writes what it sees into <html data-seen>.
+inline std::string driven(const std::string& page, const std::string& script) {
+  std::string text = read_text(page);
+  const std::string end = "</body>";
+  text.replace(text.rfind(end), end.size(), "<script>addEventListener('load', () => { const seen = [];\n" + script +
+                                                "\ndocument.documentElement.dataset.seen = seen.join(';'); });"
+                                                "</script></body>");
+  write_text(page + ".driven.html", text);
+  return page + ".driven.html";
+}
+
 /// The value of an attribute of the first element of this kind; "?" where there is none.
 inline std::string attribute(const std::string& document, const std::string& element, const std::string& name) {
   const std::size_t at = document.find(element), end = document.find('>', at);

@@ -12,6 +12,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::attribute;
 using testing::document_of;
+using testing::driven;
 using testing::read_text;
 using testing::TemporaryFolder;
 using testing::write_pile;
@@ -30,16 +31,6 @@ class ContestBrowser : public ::testing::Test {
     request.command = "espalier compare '</pre><script>alert(1)</script>'";
     EXPECT_TRUE(compare_variants(request, source_));
     return folder_ / "out/compare.html";
-  }
-  /// A copy of a page with a script of the test at its end, which writes what it sees into <html data-seen>.
-  std::string driven(const std::string& page, const std::string& script) {
-    std::string text = read_text(page);
-    const std::string end = "</body>";
-    text.replace(text.rfind(end), end.size(), "<script>addEventListener('load', () => { const seen = [];\n" + script +
-                                                  "\ndocument.documentElement.dataset.seen = seen.join(';'); });"
-                                                  "</script></body>");
-    write_text(page + ".driven.html", text);
-    return page + ".driven.html";
   }
   TemporaryFolder folder_;
   AssimpMeshSource source_;

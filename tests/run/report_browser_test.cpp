@@ -16,6 +16,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::attribute;
 using testing::document_of;
+using testing::driven;
 using testing::pile_scene;
 using testing::read_text;
 using testing::TemporaryFolder;
@@ -34,16 +35,6 @@ class Browser : public ::testing::Test {
     AssimpMeshSource source;
     EXPECT_TRUE(run_scene(load_scene(folder_ / "scene.toml"), {folder_ / out, nullptr, nullptr}, source));
     return folder_ / out + "/report.html";
-  }
-  /// A copy of a page with a script of the test at its end, which writes what it sees into <html data-seen>.
-  std::string driven(const std::string& page, const std::string& script) {
-    std::string text = read_text(page);
-    const std::string end = "</body>";
-    text.replace(text.rfind(end), end.size(), "<script>addEventListener('load', () => { const seen = [];\n" + script +
-                                                  "\ndocument.documentElement.dataset.seen = seen.join(';'); });"
-                                                  "</script></body>");
-    write_text(page + ".driven.html", text);
-    return page + ".driven.html";
   }
   TemporaryFolder folder_;
 };

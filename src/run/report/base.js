@@ -1,4 +1,4 @@
-// What all pages share: their data, errors, and whether everything came up.
+// What all pages share: their data, errors, whether everything came up, and copying.
 "use strict";
 const page = {
   errors: [],
@@ -25,4 +25,24 @@ page.done = (part, problem = "") => {
 };
 
 page.data = JSON.parse(page.byId("data").textContent);
+
+// Copying.
+for (const button of document.querySelectorAll("button.copy")) {
+  button.addEventListener("click", async () => {
+    const source = page.byId(button.dataset.copy);
+    let copied = false;
+    try {
+      await navigator.clipboard.writeText(source.textContent);
+      copied = true;
+    } catch {
+      const range = document.createRange();
+      range.selectNodeContents(source);
+      getSelection().removeAllRanges();
+      getSelection().addRange(range);
+      copied = document.execCommand("copy");
+    }
+    button.textContent = copied ? "copied" : "selected: press Ctrl-C";
+    setTimeout(() => { button.textContent = "copy"; }, 2000);
+  });
+}
 

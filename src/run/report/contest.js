@@ -1,4 +1,4 @@
-// What pages of contests share: copying, numbers as people read them.
+// What pages of contests share: numbers as people read them, pictures that are there.
 for (const part of ["charts", "pictures"]) page.parts[part] = null;
 
 page.readable = (value) => {
@@ -11,25 +11,6 @@ page.percent = (value) => {
 };
 // A score, in per cent of the optimum where that means something.
 page.score = (value) => page.data.optimum > 0 ? page.percent(value) : page.readable(value);
-
-for (const button of document.querySelectorAll("button.copy")) {
-  button.addEventListener("click", async () => {
-    const source = page.byId(button.dataset.copy);
-    let copied = false;
-    try {
-      await navigator.clipboard.writeText(source.textContent);
-      copied = true;
-    } catch {
-      const range = document.createRange();
-      range.selectNodeContents(source);
-      getSelection().removeAllRanges();
-      getSelection().addRange(range);
-      copied = document.execCommand("copy");
-    }
-    button.textContent = copied ? "copied" : "selected: press Ctrl-C";
-    setTimeout(() => { button.textContent = "copy"; }, 2000);
-  });
-}
 
 addEventListener("load", () => {
   const pictures = [...document.querySelectorAll("figure img")];

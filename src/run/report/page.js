@@ -1,4 +1,4 @@
-// What the parts of a report share: what is kept while it loads itself anew, copying, alternatives.
+// What the parts of a report share: what is kept while it loads itself anew, alternatives.
 for (const part of ["view", "plot", "pictures"]) page.parts[part] = null;
 
 page.readable = (value) => {
@@ -51,26 +51,6 @@ page.busy = false;  // a person is dragging
   };
   setTimeout(look, wait);
 })();
-
-// Copying.
-for (const button of document.querySelectorAll("button.copy")) {
-  button.addEventListener("click", async () => {
-    const source = page.byId(button.dataset.copy);
-    let copied = false;
-    try {
-      await navigator.clipboard.writeText(source.textContent);
-      copied = true;
-    } catch {
-      const range = document.createRange();
-      range.selectNodeContents(source);
-      getSelection().removeAllRanges();
-      getSelection().addRange(range);
-      copied = document.execCommand("copy");
-    }
-    button.textContent = copied ? "copied" : "selected: press Ctrl-C";
-    setTimeout(() => { button.textContent = "copy"; }, 2000);
-  });
-}
 
 // Alternatives: a click shows one large; arrows go on.
 (() => {
