@@ -214,7 +214,7 @@ The experiments of *ShapeGenetics* (2017) and of the study before it (Haubenwall
 when, and which of the papers' claims hold. This page is written by a program, figures and verdicts too:
 
     python3 bench/experiments           # tunes, compares, studies: some hours on two cores
-    python3 bench/experiments --page    # only writes the page anew, from out/experiments
+    python3 bench/experiments --page    # only writes the page anew, from out/experiments; script/setup experiments installs python3
 
 {VARIANTS}
 All engines are textbook-correct and share moves and scorer; the published program had faults that handicapped its samplers
