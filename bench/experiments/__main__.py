@@ -29,7 +29,7 @@ def main():
         if step not in STEPS:
             parser.error(f"no such step: {step}; there are {', '.join(STEPS)}")
     if "tune" in steps:
-        plan.tune(options.out, options.only, options.threads)
+        plan.tune(options.out, options.only)
     if "compare" in steps:
         plan.compare(options.out, options.only, options.seconds, options.seeds, options.threads, options.clock)
     if "study" in steps:

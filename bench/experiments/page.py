@@ -5,7 +5,7 @@ import statistics
 
 from chart import chart
 from claims import CLAIMS_2016, CLAIMS_2017, effect, percent
-from plan import MARKS, OURS, PUBLISHED, ROOT, SCENES, STUDY, STUDY_TARGETS, TUNED, variants
+from plan import MARKS, OURS, PUBLISHED, ROOT, SCENES, STUDY, STUDY_TARGETS, TUNE_SECONDS, TUNED, variants
 from results import Comparison, Sweep, quartiles, read_csv
 
 PICTURES = os.path.join(ROOT, "docs", "pictures", "experiments")
@@ -236,9 +236,9 @@ standard deviation as a band. Targets are our own, in the form of the published 
 for the tree that avoids a volume, where ours is harder.
 
 """
-TUNE_NOTE = """By `espalier sweep` with 40 000 evaluations and three seeds that the comparisons do not use. The best combination, or one that is not
-told apart from it, is in the scene file or in the variant; the worst shows how much it matters. Seconds bring far more evaluations than
-that: what is best in 40 000 need not be best in a million.
+TUNE_NOTE = f"""By `espalier sweep` with {TUNE_SECONDS} seconds of one core's computing and three seeds that the comparisons do not use. The best
+combination, or one that is not told apart from it, is in the scene file or in the variant; the worst shows how much it matters.
+What is best in {TUNE_SECONDS} seconds need not be best in thirty.
 
 """
 STUDY_NOTE = """`scenes/spaceship-2016.toml` with the paper's baseline (50 individuals, 50 generations, one elite), one parameter at a time, on two

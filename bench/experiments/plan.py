@@ -24,14 +24,15 @@ OURS = {"better-ga": "engine=ga", "hybrid": "engine=hybrid"}
 GA_PUBLISHED = {"avoid": ["engine.ga.preset=ga-2017"]}
 LARGE = ["engine.ga.preset=ga-large", "engine.ga.grow=1", "engine.ga.cut=0.5", "engine.ga.alter=0.2",
          "engine.ga.nudge=1", "engine.ga.mutation=0.5", "engine.ga.elitism=4"]  # scenes name some of them otherwise
-GA_POPULATION = {"spaceship": 60, "sketch": 150, "avoid": 150, "silhouette": 150, "silhouette-long": 150, "city": 60}
+GA_POPULATION = {"spaceship": 60, "sketch": 30, "avoid": 150, "silhouette": 150, "silhouette-long": 150, "city": 150}
+GA_ADAPTS = {"sketch", "avoid", "city"}  # where adapting the moves' rates helped
 
-# How engines were tuned: other seeds than those that are compared, so many evaluations.
-TUNE_SEEDS, TUNE_EVALUATIONS = "11,12,13", 40000
+# How engines were tuned: other seeds than those that are compared, so many seconds of one core's computing each.
+TUNE_SEEDS, TUNE_SECONDS = "11,12,13", 2
 TUNED = {
-    "smc": {"temperature": [0.001, 0.003, 0.01, 0.03], "particles": [100, 500, 2000]},
-    "sosmc": {"temperature": [0.001, 0.003, 0.01, 0.03], "particles": [100, 500, 2000]},
-    "rjmcmc": {"temperature": [0.0001, 0.0003, 0.001], "chains": [1, 4]},
+    "smc": {"temperature": [0.0003, 0.001, 0.003, 0.01, 0.03], "particles": [100, 500, 2000]},
+    "sosmc": {"temperature": [0.0003, 0.001, 0.003, 0.01, 0.03], "particles": [100, 500, 2000]},
+    "rjmcmc": {"temperature": [0.00003, 0.0001, 0.0003, 0.001, 0.003], "chains": [1, 4]},
     "ga": {"population": [30, 60, 150], "adapt": ["false", "true"]},
 }
 TUNE_ALSO = {"rjmcmc": ["engine.rjmcmc.temperatures=1"], "ga": LARGE}
@@ -59,6 +60,7 @@ def variants(name):
             settings += GA_PUBLISHED.get(name, [])
         elif variant in OURS:
             settings += LARGE + [f"engine.ga.population={GA_POPULATION[name]}"]
+            settings += ["engine.ga.adapt=true"] if name in GA_ADAPTS else []
         words[variant] = ", ".join(settings)
     return words
 
@@ -81,7 +83,7 @@ def optimum(scene):
         return json.load(file)["optimum"]
 
 
-def tune(out, names, threads):
+def tune(out, names):
     for name, scene, _ in SCENES:
         if names and name not in names:
             continue
@@ -93,9 +95,8 @@ def tune(out, names, threads):
                 words += ["--vary", f"engine.{engine}.{key}=" + ",".join(values)]
             for setting in TUNE_ALSO.get(engine, []):
                 words += ["--set", setting]
-            espalier("sweep", scene, "--engine", engine, *words, "--seeds", TUNE_SEEDS, "--evaluations",
-                     str(TUNE_EVALUATIONS), "--threads", str(threads), "--out",
-                     os.path.join(out, "tune", f"{name}-{engine}"))
+            espalier("sweep", scene, "--engine", engine, *words, "--seeds", TUNE_SEEDS, "--time", str(TUNE_SECONDS),
+                     "--threads", "1", "--clock", "computing", "--out", os.path.join(out, "tune", f"{name}-{engine}"))
 
 
 def compare(out, names, seconds, seeds, threads, clock):
