@@ -74,6 +74,22 @@ void Machine::run_gene(const Derivation& derivation) {
   } while (run<true>(*code_->program, &derivation));
 }
 
+void Machine::run_apart(EdgeId edge, std::uint16_t variant, const std::uint32_t* draws, const Derivation& slots) {
+  code_ = &codes_[first_code_[edge] + variant];
+  draws_ = draws;
+  current_.at = {};
+  for (std::uint32_t i = 0; i < code_->slots; ++i) child_at_[i] = {i, 0, 0};
+  registers_[kChildlessRegister] = 0;
+  if (!run<true>(*code_->program, &slots)) return;
+  // The last child took the gene's place: it is to wait as the others do.
+  float* floats;
+  Pending& child = children.push(floats);
+  child = current_;
+  child.state.scope = lanes_at(kScopeRegister);
+  for (std::uint32_t k = 0; k < counted_; ++k) *floats++ = registers_[kFirstDepthOfRegister + k];
+  for (std::uint32_t k = 0; k < parameters_; ++k) *floats++ = registers_[graph_.registers.local_base + k];
+}
+
 void Machine::run_detail() { run<false>(graph_.details[current_.program], nullptr); }
 
 template <bool kGene>

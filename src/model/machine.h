@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "grammar/face.h"
@@ -32,6 +33,14 @@ class Machine {
   void take(const PendingQueue& queue, std::size_t i);
   /// Runs the current item as a gene of `derivation`.
   void run_gene(const Derivation& derivation);
+  /// Runs the current item as a gene by itself: all its slots that are not absent queue a child, whose `at.gene` is the
+  /// slot's index. `slots` holds one state per slot, filled or absent, and nothing else that is looked at.
+  void run_apart(EdgeId edge, std::uint16_t variant, const std::uint32_t* draws, const Derivation& slots);
+  /// The draws and lets of the start rule, that every program sees.
+  std::span<float> globals() {
+    return {registers_ + graph_.registers.global_base,
+            static_cast<std::size_t>(graph_.registers.local_base - graph_.registers.global_base)};
+  }
   /// Runs the current item as a call of a detail.
   void run_detail();
 

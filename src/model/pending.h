@@ -39,6 +39,7 @@ class PendingQueue {
   std::size_t size() const { return size_; }
   const Pending& operator[](std::size_t i) const { return items_[i]; }
   const float* floats(std::size_t i) const { return floats_.data() + i * stride_; }
+  float* floats(std::size_t i) { return floats_.data() + i * stride_; }
   /// Room for one more item; what it holds is left over from earlier.
   Pending& push(float*& floats) {
     if (size_ == items_.size()) grow();

@@ -63,7 +63,8 @@ std::string population_of(const SearchSession& session) {
   std::string lines;
   for (const Individual* one : all) {
     if (seen.size() == kMostModels || lines.size() > kMostPopulationBytes) break;
-    if (is_finished(one->derivation) && seen.insert(hash(one->derivation)).second) {
+    const bool whole = session.engine().leaves_open() || is_finished(one->derivation);
+    if (whole && seen.insert(hash(one->derivation)).second) {
       lines += to_line(graph, one->derivation) + "\n";
     }
   }

@@ -22,13 +22,13 @@ double mean_distance(const std::vector<ModelSketch>& sketches) {
 DiverseArchive::DiverseArchive(ModelSketcher sketcher, std::size_t size, double least_distance)
     : sketcher_(std::move(sketcher)), size_(size), least_distance_(least_distance) {}
 
-void DiverseArchive::offer(std::span<const Individual> population) {
+void DiverseArchive::offer(std::span<const Individual> population, bool open) {
   std::optional<double> seen;
   for (std::size_t i = 0; i < population.size(); ++i) {
     const double score = population[i].score;
     if (members_.size() == size_ && (size_ == 0 || score <= members_.back().score)) return;
     if (seen && score == *seen) continue;  // a twin, as good as always
-    if (!is_finished(population[i].derivation)) continue;
+    if (!open && !is_finished(population[i].derivation)) continue;
     seen = score;
     offer(population[i]);
   }

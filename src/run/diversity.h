@@ -16,9 +16,9 @@ class DiverseArchive {
  public:
   DiverseArchive(ModelSketcher sketcher, std::size_t size, double least_distance);
 
-  /// `population` is sorted, best first. Of equal scores in a row only the first is looked at; of
-  /// unfinished individuals none.
-  void offer(std::span<const Individual> population);
+  /// `population` is sorted, best first. Of equal scores in a row only the first is looked at; of unfinished
+  /// individuals none, unless they are `open` as a matter of course.
+  void offer(std::span<const Individual> population, bool open = false);
   /// Takes the place of the members; `members` are those of an equal archive, which goes on with them.
   void restore(std::vector<Individual> members);
   std::size_t capacity() const { return size_; }

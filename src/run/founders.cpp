@@ -105,7 +105,8 @@ std::string find_loose_lock(const GeneratorGraph& graph, const Derivation& deriv
 
 std::string find_objection(const Setup& setup, const Derivation& derivation) {
   const GeneLimits& genes = setup.scene.search.ga.genes;
-  if (!is_finished(derivation)) return "it is not finished: it has open slots";
+  const bool may_be_open = setup.scene.search.engine == EngineKind::guided;
+  if (!may_be_open && !is_finished(derivation)) return "it is not finished: it has open slots";
   if (derivation.size() < genes.min || derivation.size() > genes.max) {
     return fmt::format("limits.genes allows {} to {}, it has {}", genes.min, genes.max, derivation.size());
   }

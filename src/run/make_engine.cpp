@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "search/ga.h"
+#include "search/guided.h"
 #include "search/hybrid.h"
 #include "search/rjmcmc.h"
 #include "search/smc.h"
@@ -14,6 +15,7 @@ std::unique_ptr<Engine> make_engine(const SceneSearch& search, const SearchProbl
     case EngineKind::smc: return std::make_unique<SmcEngine>(problem, search.smc);
     case EngineKind::sosmc: return std::make_unique<SmcEngine>(problem, search.sosmc);
     case EngineKind::rjmcmc: return std::make_unique<RjmcmcEngine>(problem, search.rjmcmc);
+    case EngineKind::guided: return std::make_unique<GuidedEngine>(problem, search.guided);
     case EngineKind::hybrid: break;
   }
   HybridSettings hybrid = search.hybrid;

@@ -45,6 +45,7 @@ Probes grow_probes(const GeneratorGraph& graph, const Scene& scene, bool full) {
 }
 
 ProbeReach find_reach(Setup& setup) {
+  if (setup.silhouettes.empty() && !setup.volume) return {};
   const bool full = setup.objective.view() == TargetView::full;
   const Probes probes = setup.probes ? std::move(*setup.probes) : grow_probes(setup.graph(), setup.scene, full);
   setup.probes.reset();

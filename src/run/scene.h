@@ -12,9 +12,11 @@
 
 #include "base/vec.h"
 #include "run/start_settings.h"
+#include "score/guiding_curve.h"
 #include "score/limit.h"
 #include "score/silhouette_target.h"
 #include "score/volume_target.h"
+#include "search/guided_settings.h"
 #include "search/hybrid_settings.h"
 
 namespace espalier {
@@ -28,8 +30,8 @@ struct SceneBudget {
   bool operator==(const SceneBudget&) const = default;
 };
 
-enum class EngineKind : std::uint8_t { ga, smc, sosmc, rjmcmc, hybrid };
-inline constexpr std::array<std::string_view, 5> kEngineNames = {"ga", "smc", "sosmc", "rjmcmc", "hybrid"};
+enum class EngineKind : std::uint8_t { ga, smc, sosmc, rjmcmc, hybrid, guided };
+inline constexpr std::array<std::string_view, 6> kEngineNames = {"ga", "smc", "sosmc", "rjmcmc", "hybrid", "guided"};
 inline std::string_view name_of(EngineKind engine) { return kEngineNames[static_cast<std::size_t>(engine)]; }
 
 /// Settings of all engines; `genes` of each comes from the limits, and an `initial_length` that is not given from `ga`.
@@ -40,6 +42,7 @@ struct SceneSearch {
   SmcSettings smc = {.order = SlotOrder::depth_first};
   SmcSettings sosmc;
   RjmcmcSettings rjmcmc;
+  GuidedSettings guided;
   HybridSettings hybrid;  // but not those of its engines, which are the ones above
 
   bool operator==(const SceneSearch&) const = default;
@@ -119,6 +122,13 @@ struct SceneSilhouette {
   bool operator==(const SceneSilhouette&) const = default;
 };
 
+struct SceneCurves {
+  CurveSettings settings;  // without curves: no target
+  double weight = 1;
+
+  bool operator==(const SceneCurves&) const = default;
+};
+
 struct SceneOutput {
   std::uint32_t keep = 8;       // alternatives beside the best
   double distance = 0.2;        // least distance of any two kept (run/diversity.h)
@@ -136,6 +146,7 @@ struct Scene {
   SceneLimits limits;
   SceneVolume volume;  // without meshes: no target
   std::vector<SceneSilhouette> silhouettes;
+  SceneCurves curves;
   SceneStart start;
   SceneOutput output;
 

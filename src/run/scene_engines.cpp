@@ -158,12 +158,13 @@ void read_search(const TomlValue& document, const std::string& engine_of_file, c
   read_settings(sources("smc"), file, [&](TomlSection& s) { read_smc(s, search.smc); });
   read_settings(sources("sosmc"), file, [&](TomlSection& s) { read_smc(s, search.sosmc); });
   read_settings(sources("rjmcmc"), file, [&](TomlSection& s) { read_rjmcmc(s, search.rjmcmc); });
+  read_settings(sources("guided"), file, [&](TomlSection& s) { read_guided(s, search.guided); });
   read_settings(sources("hybrid"), file, [&](TomlSection& s) { read_hybrid(s, search.hybrid); });
   settle(search);
 }
 
 void share_limits(SceneSearch& search) {
-  search.smc.genes = search.sosmc.genes = search.rjmcmc.genes = search.ga.genes;
+  search.smc.genes = search.sosmc.genes = search.rjmcmc.genes = search.guided.genes = search.ga.genes;
 }
 
 void validate_search(const SceneSearch& search) {
@@ -175,6 +176,7 @@ void validate_search(const SceneSearch& search) {
     case EngineKind::sosmc: return validate(search.sosmc);
     case EngineKind::rjmcmc: return validate(search.rjmcmc);
     case EngineKind::hybrid: return validate(hybrid);
+    case EngineKind::guided: return validate(search.guided);
   }
 }
 
@@ -192,8 +194,10 @@ std::string search_to_toml(const SceneSearch& search) {
                       "unique = {}\njoin = {}\nadapt = {}\nrestart_after = {}\n",
                       word_for(kCompatibilities, ga.crossover), ga.retries, format_toml(ga.replace_probability),
                       ga.reuse_scores, ga.unique, ga.join, ga.adapt, ga.restart_after);
-  return text + fmt::format("\n[engine.smc]\n{}\n[engine.sosmc]\n{}\n[engine.rjmcmc]\n{}\n[engine.hybrid]\n{}",
-                            to_toml(search.smc), to_toml(search.sosmc), to_toml(search.rjmcmc), to_toml(search.hybrid));
+  return text + fmt::format("\n[engine.smc]\n{}\n[engine.sosmc]\n{}\n[engine.rjmcmc]\n{}\n[engine.hybrid]\n{}"
+                            "\n[engine.guided]\n{}",
+                            to_toml(search.smc), to_toml(search.sosmc), to_toml(search.rjmcmc), to_toml(search.hybrid),
+                            to_toml(search.guided));
 }
 
 }  // namespace espalier

@@ -52,6 +52,19 @@ void read_rjmcmc(TomlSection& s, RjmcmcSettings& settings) {
   read_initial_length(s, settings.initial_length_min, settings.initial_length_max);
 }
 
+void read_guided(TomlSection& s, GuidedSettings& settings) {
+  take(settings.particles, s.whole("particles", 2, 1'000'000));
+  take(settings.last_particles, s.whole("last_particles", 2, 1'000'000));
+  take(settings.steps, s.whole("steps", 1, 100'000));
+  take(settings.heuristic, s.number("heuristic", 0, 1e6));
+  take(settings.heuristic_steps, s.whole("heuristic_steps", 0, 100'000));
+  take(settings.temperature, s.number("temperature", 1e-12, 1e12));
+  take(settings.resampling, s.choice("resampling", kResamplings));
+  take(settings.regrow, s.boolean("regrow"));
+  take(settings.regrow_particles, s.whole("regrow_particles", 2, 1'000'000));
+  take(settings.regrow_steps, s.whole("regrow_steps", 1, 100'000));
+}
+
 void read_hybrid(TomlSection& s, HybridSettings& settings) {
   take(settings.sweeps, s.whole("sweeps", 1, 1000));
   take(settings.start_evaluations, s.whole("start_evaluations", 1, 1'000'000'000'000));
@@ -77,6 +90,14 @@ std::string to_toml(const RjmcmcSettings& s) {
                      format_toml(s.nudges), format_toml(s.slots), format_toml(s.jumps),
                      word_for(kPlaceChoices, s.choice), s.delayed, s.swap_every) +
          initial_length_line(s.initial_length_min, s.initial_length_max);
+}
+
+std::string to_toml(const GuidedSettings& s) {
+  return fmt::format("particles = {}\nlast_particles = {}\nsteps = {}\nheuristic = {}\nheuristic_steps = {}\n"
+                     "temperature = {}\nresampling = \"{}\"\nregrow = {}\nregrow_particles = {}\nregrow_steps = {}\n",
+                     s.particles, s.last_particles, s.steps, format_toml(s.heuristic), s.heuristic_steps,
+                     format_toml(s.temperature), word_for(kResamplings, s.resampling), s.regrow, s.regrow_particles,
+                     s.regrow_steps);
 }
 
 std::string to_toml(const HybridSettings& s) {

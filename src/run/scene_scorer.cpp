@@ -5,6 +5,10 @@
 #include <fmt/format.h>
 
 #include "base/check.h"
+#include "score/curve_growth.h"
+#include "score/curve_target.h"
+#include "score/expected_direction.h"
+#include "score/limit_target.h"
 
 namespace espalier {
 namespace {
@@ -17,6 +21,13 @@ void add(const std::vector<Rejections>& more, std::vector<Rejections>& all) {
     all[i].highest = all[i].count == 0 ? more[i].highest : std::max(all[i].highest, more[i].highest);
     all[i].count += more[i].count;
   }
+}
+
+/// What engines see to by themselves: a least and a greatest number of genes.
+bool only_counts_genes(const LimitTarget& limits) {
+  return std::all_of(limits.measures().begin(), limits.measures().end(), [&](Measure measure) {
+    return measure == Measure::genes && limits.limits()[measure].weight == 0;
+  });
 }
 
 }  // namespace
@@ -41,7 +52,8 @@ class SceneScorer::Session final : public ScoreSession {
 
 SceneScorer::SceneScorer(const GeneratorGraph& graph, const Objective& objective, Executor& executor,
                          std::size_t session_bytes)
-    : objective_(objective),
+    : graph_(graph),
+      objective_(objective),
       executor_(executor),
       view_(objective.view()),
       bytes_left_(session_bytes) {
@@ -74,6 +86,22 @@ std::unique_ptr<ScoreSession> SceneScorer::make_session() {
   const std::size_t bytes = objective_.session_bytes();
   if (bytes == 0 || bytes > bytes_left_) return nullptr;
   return std::make_unique<Session>(*this, bytes);
+}
+
+std::unique_ptr<GrowthScorer> SceneScorer::make_growth_scorer() {
+  const CurveTarget* curves = nullptr;
+  double weight = 1;
+  for (std::size_t i = 0; i < objective_.size(); ++i) {
+    const Target& target = objective_.target(i);
+    const auto* const limits = dynamic_cast<const LimitTarget*>(&target);
+    if (limits && only_counts_genes(*limits)) continue;
+    if (curves || !(curves = dynamic_cast<const CurveTarget*>(&target))) return nullptr;
+    weight = objective_.weight(i);
+  }
+  if (!curves) return nullptr;
+  constexpr std::uint64_t kSeed = 1;  // of the grammar's, not of a search's
+  if (expected_.empty()) expected_ = expected_directions(graph_, kSeed);
+  return std::make_unique<CurveGrowth>(graph_, curves->cost(), weight, expected_);
 }
 
 void SceneScorer::score_proposals(std::span<const ScoreProposal> proposals, std::span<double> scores) {

@@ -28,6 +28,8 @@ class SceneScorer final : public BatchScorer {
   std::unique_ptr<ScoreSession> make_session() override;
   void score_proposals(std::span<const ScoreProposal> proposals, std::span<double> scores) override;
   double optimum() const override { return objective_.optimum(); }
+  /// Where nothing but guiding curves is asked for.
+  std::unique_ptr<GrowthScorer> make_growth_scorer() override;
   std::string describe_rejections() const override;
   /// What was rejected so far, by hard limit of the objective.
   std::vector<Rejections> rejections() const;
@@ -46,11 +48,13 @@ class SceneScorer final : public BatchScorer {
 
   const Model& expand(const Derivation& derivation, Worker& worker) const;
 
+  const GeneratorGraph& graph_;
   const Objective& objective_;
   Executor& executor_;
   TargetView view_;
   std::vector<Worker> workers_;
   std::size_t bytes_left_;          // for sessions
+  std::vector<Vec3> expected_;      // directions per rule, once somebody needs them
   std::vector<Rejections> before_;  // of an earlier scorer; empty: there was none
 };
 

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "io/file.h"
 #include "run/scene_choices.h"
+#include "run/scene_curves.h"
 #include "run/scene_engines.h"
 #include "run/scene_limits.h"
 #include "run/scene_silhouettes.h"
@@ -166,8 +167,11 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
     if (list->size() > 64) s.fail("silhouette", fmt::format("must be at most 64 silhouettes, got {}", list->size()));
     for (std::size_t i = 0; i < list->size(); ++i) scene.silhouettes.push_back(read_silhouette((*list)[i], name, i));
   }
-  if (scene.volume.meshes.empty() && scene.silhouettes.empty())
-    s.fail("volume", "must be given, or [[silhouette]]: a search needs meshes to fill or images to look like");
+  if (const TomlValue* t = s.table("curves")) scene.curves = read_curves(*t, name);
+  if (scene.volume.meshes.empty() && scene.silhouettes.empty() && scene.curves.settings.curves.empty()) {
+    s.fail("volume", "must be given, or [[silhouette]], or [curves]: a search needs meshes to fill, images to look like "
+                     "or curves to follow");
+  }
   if (const TomlValue* t = s.table("start")) scene.start = read_start(*t, name);
   if (const TomlValue* t = s.table("output")) read_output(*t, name, scene);
   s.finish();

@@ -4,6 +4,7 @@
 #include "run/scene_choices.h"
 #include "run/scene_engines.h"
 #include "run/scene_limits.h"
+#include "run/scene_curves.h"
 #include "run/scene_silhouettes.h"
 #include "run/scene_start.h"
 #include "run/scene_toml.h"
@@ -61,6 +62,7 @@ std::string to_toml(const Scene& scene) {
   w.line("{}", limits_to_toml(scene));
   if (!scene.volume.meshes.empty()) write_volume(w, scene.volume);
   for (const SceneSilhouette& silhouette : scene.silhouettes) w.line("\n{}", silhouette_to_toml(silhouette));
+  w.line("\n{}", curves_to_toml(scene.curves));
   if (!scene.start.derivation.empty()) w.line("\n{}", start_to_toml(scene.start));
   w.line("\n[output]\nkeep = {}\ndistance = {}\npicture = [{}, {}]", scene.output.keep,
          format_toml(scene.output.distance), scene.output.picture[0], scene.output.picture[1]);

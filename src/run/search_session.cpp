@@ -15,12 +15,6 @@ DiverseArchive make_archive(const Setup& setup) {
                         std::size_t{setup.scene.output.keep} + 1, setup.scene.output.distance);
 }
 
-double mean_score(std::span<const Individual> population) {
-  double sum = 0;
-  for (const Individual& individual : population) sum += individual.score;
-  return sum / static_cast<double>(population.size());
-}
-
 }  // namespace
 
 SearchSession::SearchSession(const Setup& setup, Executor& executor, StopwatchClock clock)
@@ -36,9 +30,9 @@ const StepReport& SearchSession::step() {
   watch_.go();
   engine_->step();
   const std::uint64_t idle = engine_->evaluations() == last_.evaluations ? last_.idle + 1 : 0;
-  last_ = {engine_->steps(), engine_->evaluations(), watch_.seconds(), engine_->best().score,
-           mean_score(engine_->population()), idle};
-  if (last_.step % kStepsPerOffer == 1) archive_.offer(engine_->population());
+  last_ = {engine_->steps(), engine_->evaluations(), watch_.seconds(), engine_->best_score(),
+           engine_->mean_score(), idle};
+  if (last_.step % kStepsPerOffer == 1) archive_.offer(engine_->population(), engine_->leaves_open());
   log_.add(last_);
   if (log_.wants_gauges(last_.step)) log_.add_gauges(last_, gauges());
   return last_;
@@ -54,7 +48,7 @@ std::vector<NamedGauge> SearchSession::gauges() const {
 SearchResult SearchSession::finish(std::string stopped_by) {
   CHECK(!finished_ && last_.step > 0);
   finished_ = true;
-  archive_.offer(engine_->population());
+  archive_.offer(engine_->population(), engine_->leaves_open());
   log_.add_gauges(last_, gauges());
   SearchResult result;
   result.best = engine_->best();

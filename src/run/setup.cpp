@@ -127,14 +127,36 @@ void add_silhouettes(Setup& setup, const Scene& from) {
   }
 }
 
+void add_curves(Setup& setup) {
+  const SceneCurves& scene = setup.scene.curves;
+  if (scene.settings.curves.empty()) return;
+  auto target = std::make_unique<CurveTarget>(scene.settings);
+  setup.curves = target.get();
+  setup.objective.add(std::move(target), scene.weight);
+}
+
+/// Models that follow curves stay near them: half of their extent is left on every side.
+Bounds box_around(const CurveSettings& settings) {
+  Bounds box;
+  for (const GuidingCurve& guide : settings.curves) {
+    for (const Vec3& point : guide.curve.points) box.add(point);
+  }
+  const Vec3 size = box.size();
+  const Vec3 margin(0.5f * std::max({size.x, size.y, size.z, 0.1f}));
+  return {box.min - margin, box.max + margin};
+}
+
 void build_objective(Setup& setup, const Scene& from) {
-  if (setup.targets.empty()) {
+  if (setup.targets.empty() && from.silhouettes.empty()) {
+    setup.stage = box_around(from.curves.settings);
+  } else if (setup.targets.empty()) {
     setup.probes = grow_probes(setup.graph(), setup.scene, setup.full());
     setup.stage = box_of(*setup.probes);
   } else {
     add_volume(setup);
   }
   add_silhouettes(setup, from);
+  add_curves(setup);
   const VolumeView view = setup.full() ? VolumeView::full : VolumeView::parts;
   auto limits = std::make_unique<LimitTarget>(limits_of(setup.scene), setup.meshes, view);
   for (const std::string& warning : limits->warnings()) setup.warnings.push_back(warning);
@@ -145,6 +167,7 @@ void build_objective(Setup& setup, const Scene& from) {
 
 bool Setup::full() const {
   if (!scene.volume.meshes.empty()) return scene.volume.view == VolumeView::full;
+  if (scene.silhouettes.empty()) return true;
   return std::any_of(scene.silhouettes.begin(), scene.silhouettes.end(),
                      [](const SceneSilhouette& s) { return s.view == VolumeView::full; });
 }

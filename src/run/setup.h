@@ -10,6 +10,7 @@
 #include "run/probes.h"
 #include "run/scene.h"
 #include "score/combined_objective.h"
+#include "score/curve_target.h"
 #include "score/silhouette_target.h"
 #include "search/engine.h"
 
@@ -24,9 +25,10 @@ struct Setup {
   Objective objective;
   const VolumeTarget* volume = nullptr;  // in the objective, if the scene has one
   std::vector<const SilhouetteTarget*> silhouettes;  // in the objective, order of scene.silhouettes
+  const CurveTarget* curves = nullptr;  // in the objective, if the scene has some
   std::vector<Individual> founders;  // best first; what the search starts from beside what grows at random
   Locks locks;                       // hold for all founders
-  Bounds stage;  // where models are expected: the grid's box, or where the silhouettes' probes were
+  Bounds stage;  // where models are expected: the grid's box, around the curves, or where probes were
   std::optional<Probes> probes;  // where setting up had to grow them, until find_reach uses them up
   InputFiles inputs;
   std::vector<std::string> warnings;

@@ -115,20 +115,52 @@ std::optional<std::string> TomlSection::text(std::string_view key) {
   return value->text;
 }
 
+Vec3 TomlSection::vector_in(const TomlValue& value, std::string_view key, float low, float high,
+                            std::string_view rule) const {
+  if (value.kind != TomlValue::Kind::array || value.items.size() != 3) {
+    fail_at(value, key, fmt::format("must be {}, got {}", rule, describe(value)));
+  }
+  Vec3 result;
+  for (int i = 0; i < 3; ++i) {
+    result[i] = static_cast<float>(number_in(value.items[static_cast<std::size_t>(i)], key, low, high));
+  }
+  return result;
+}
+
+std::optional<std::vector<Vec3>> TomlSection::vectors(std::string_view key, std::size_t count, float low, float high) {
+  const TomlValue* value = member(key);
+  if (!value) return std::nullopt;
+  if (value->kind != TomlValue::Kind::array || value->items.size() != count) {
+    fail(key, fmt::format("must be a list of {} points [x, y, z], got {}", count, describe(*value)));
+  }
+  std::vector<Vec3> result;
+  for (const TomlValue& item : value->items) result.push_back(vector_in(item, key, low, high, "points [x, y, z]"));
+  return result;
+}
+
+std::optional<std::vector<double>> TomlSection::numbers(std::string_view key, std::size_t count, double low,
+                                                        double high, bool spread) {
+  const TomlValue* value = member(key);
+  if (!value) return std::nullopt;
+  if (spread && (value->kind == TomlValue::Kind::integer || value->kind == TomlValue::Kind::real)) {
+    return std::vector<double>(count, number_in(*value, key, low, high));
+  }
+  if (value->kind != TomlValue::Kind::array || value->items.size() != count) {
+    fail(key, fmt::format("must be {}a list of {} numbers, got {}", spread ? "a number or " : "", count,
+                          describe(*value)));
+  }
+  std::vector<double> result;
+  for (const TomlValue& item : value->items) result.push_back(number_in(item, key, low, high));
+  return result;
+}
+
 std::optional<Vec3> TomlSection::vector(std::string_view key, float low, float high, bool spread) {
   const TomlValue* value = member(key);
   if (!value) return std::nullopt;
   if (spread && (value->kind == TomlValue::Kind::integer || value->kind == TomlValue::Kind::real)) {
     return Vec3(static_cast<float>(number_in(*value, key, low, high)));
   }
-  if (value->kind != TomlValue::Kind::array || value->items.size() != 3) {
-    fail(key, fmt::format("must be {}[x, y, z], got {}", spread ? "a number or " : "", describe(*value)));
-  }
-  Vec3 result;
-  for (int i = 0; i < 3; ++i) {
-    result[i] = static_cast<float>(number_in(value->items[static_cast<std::size_t>(i)], key, low, high));
-  }
-  return result;
+  return vector_in(*value, key, low, high, spread ? "a number or [x, y, z]" : "[x, y, z]");
 }
 
 std::optional<std::vector<std::uint64_t>> TomlSection::wholes(std::string_view key, std::size_t count,

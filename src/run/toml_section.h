@@ -36,6 +36,11 @@ class TomlSection {
   /// Exactly `count` whole numbers.
   std::optional<std::vector<std::uint64_t>> wholes(std::string_view key, std::size_t count, std::uint64_t low,
                                                    std::uint64_t high);
+  /// Exactly `count` numbers. One spreads where `spread`.
+  std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count, double low, double high,
+                                             bool spread = false);
+  /// Exactly `count` points.
+  std::optional<std::vector<Vec3>> vectors(std::string_view key, std::size_t count, float low, float high);
   template <typename T, std::size_t N>
   std::optional<T> choice(std::string_view key, const Choice<T> (&choices)[N]) {
     std::vector<std::string_view> names;
@@ -59,6 +64,7 @@ class TomlSection {
 
  private:
   std::optional<std::size_t> choice_index(std::string_view key, std::span<const std::string_view> names);
+  Vec3 vector_in(const TomlValue& value, std::string_view key, float low, float high, std::string_view rule) const;
   double number_in(const TomlValue& value, std::string_view key, double low, double high) const;
   std::uint64_t whole_in(const TomlValue& value, std::string_view key, std::uint64_t low, std::uint64_t high) const;
   [[noreturn]] void fail_at(const TomlValue& place, std::string_view key, const std::string& rule) const;

@@ -33,6 +33,36 @@ struct ScoreProposal {
   const Derivation* derivation = nullptr;
 };
 
+class GrowthPool;
+struct GrowingDerivation;
+struct GrowthRenumbering;
+
+/// Scores derivations that grow in a pool, shoot by shoot. Each has a place here; what places share is kept once.
+class GrowthScorer {
+ public:
+  virtual ~GrowthScorer() = default;
+  /// Forgets all: so many places, all empty; the pool is empty too.
+  virtual void begin(std::size_t places) = 0;
+  /// The place is empty again.
+  virtual void clear(std::size_t place) = 0;
+  /// The derivation at this place has a new gene; parents come before children.
+  virtual void grown(std::size_t place, const GrowthPool& pool, std::uint32_t shoot) = 0;
+  /// The same, where the gene is a copy of one that is known.
+  virtual void grown_again(std::size_t place, std::uint32_t shoot, std::uint32_t copy_of) = 0;
+  /// Place k takes over what place ancestors[k] has; there are as many places then as ancestors.
+  virtual void follow(std::span<const std::uint32_t> ancestors) = 0;
+  /// scores[k] = what BatchScorer gives for the derivation at place k, packed.
+  virtual void score(const GrowthPool& pool, std::span<const GrowingDerivation> growing, std::span<double> scores) = 0;
+  /// promises[k] = what the open slots at place k let hope for, to be added to its score while it grows; 0 where nothing
+  /// is known.
+  virtual void promise(const GrowthPool& pool, std::span<const GrowingDerivation> growing,
+                       std::span<double> promises) = 0;
+  /// What this gene added to the score when it came, at the places that have it.
+  virtual double worth(std::uint32_t shoot) const = 0;
+  /// The pool has forgotten what nobody needs.
+  virtual void renumber(const GrowthRenumbering& renumbering) = 0;
+};
+
 class BatchScorer {
  public:
   virtual ~BatchScorer() = default;
@@ -50,6 +80,9 @@ class BatchScorer {
     for (const ScoreProposal& proposal : proposals) derivations.push_back(proposal.derivation);
     score(derivations, scores);
   }
+
+  /// Null where what grows must be scored as a whole. The scorer must outlive it.
+  virtual std::unique_ptr<GrowthScorer> make_growth_scorer() { return nullptr; }
 
   /// The best score that any model could have (it need not be reachable).
   virtual double optimum() const = 0;

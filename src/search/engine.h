@@ -62,6 +62,11 @@ class Engine {
   virtual std::span<const Individual> population() const = 0;
   /// The best individual ever scored. Only after the first step.
   virtual const Individual& best() const = 0;
+  /// best().score, and the mean of the population's scores; for engines to which individuals cost something to show.
+  virtual double best_score() const { return best().score; }
+  virtual double mean_score() const;
+  /// Individuals may have open slots, as a matter of course: what is shown there is their `otherwise`.
+  virtual bool leaves_open() const { return false; }
   /// What happened inside, by name, in a fixed order.
   virtual std::vector<NamedCount> diagnostics() const = 0;
   /// How well it goes. Names and their order are the same over the life of an engine; equal states give equal values, a

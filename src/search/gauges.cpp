@@ -21,6 +21,13 @@ double mean_genes(std::span<const Individual> population) {
   return share_of(genes, population.size());
 }
 
+double mean_score(std::span<const Individual> population) {
+  if (population.empty()) return kNothingToTell;
+  double sum = 0;
+  for (const Individual& one : population) sum += one.score;
+  return sum / static_cast<double>(population.size());
+}
+
 double score_deviation(std::span<const Individual> population) {
   if (population.empty()) return kNothingToTell;
   const auto n = static_cast<double>(population.size());

@@ -18,6 +18,7 @@ inline double share_of(std::uint64_t part, std::uint64_t whole) {
 
 /// Different derivations (by hash) over individuals, above 0 to 1.
 double share_distinct(std::span<const Individual> population);
+double mean_score(std::span<const Individual> population);
 double mean_genes(std::span<const Individual> population);
 /// Standard deviation of the scores, of the population itself (divided by its size).
 double score_deviation(std::span<const Individual> population);
