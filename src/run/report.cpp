@@ -59,9 +59,9 @@ std::string headline(const SearchResult& result) {
   const Explanation& e = result.explanation;
   std::string text;
   if (e.percent) text += fmt::format("<span class=\"percent\">{:.1f}&thinsp;%</span> ", *e.percent);
-  text += fmt::format("<span class=\"score\">score <b>{}</b> of at most {}</span>", readable_number(result.best.score),
-                      readable_number(e.optimum));
-  return text;
+  text += fmt::format("<span class=\"score\">score <b>{}</b>", readable_number(result.best.score));
+  if (e.optimum > 0) text += " of at most " + readable_number(e.optimum);
+  return text + "</span>";
 }
 
 std::string status(const ReportInput& input) {
