@@ -7,6 +7,7 @@
 #include "base/check.h"
 #include "base/counted.h"
 #include "run/curve_view.h"
+#include "run/output_look.h"
 #include "run/silhouette_view.h"
 
 namespace espalier {
@@ -45,7 +46,7 @@ OutcomePicture volume_outcome(const VolumeTarget& target, const Model& model, co
 
 OutcomePicture curves_outcome(const Outcome& outcome, const OutcomeLook& look, Executor& executor) {
   const CurveTarget& target = *outcome.setup.curves;
-  RenderSettings settings;
+  RenderSettings settings = look_of(outcome.setup.scene.output);
   settings.width = look.view[0], settings.height = look.view[1], settings.samples = look.view_samples;
   const MarkedCurves marked = mark_curves(target, outcome.model);
   return {OutcomeKind::curves, fmt::format("curves, {}", counted(outcome.model.bones.size(), "bone")),

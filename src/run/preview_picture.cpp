@@ -9,6 +9,7 @@
 #include "render/overlay.h"
 #include "render/voxel_view.h"
 #include "run/curve_view.h"
+#include "run/output_look.h"
 #include "run/overlays.h"
 #include "run/preview.h"
 #include "run/silhouette_view.h"
@@ -72,8 +73,8 @@ Cell drawing_cell(const Preview& preview, std::size_t index) {
   return cell;
 }
 
-RenderSettings small_look() {
-  RenderSettings look;
+RenderSettings small_look(const Setup& setup) {
+  RenderSettings look = look_of(setup.scene.output);
   look.width = kCell, look.height = kCell * 3 / 4;
   return look;
 }
@@ -81,7 +82,7 @@ RenderSettings small_look() {
 /// The meshes asked for within the box of the grid.
 Picture meshes_in_grid(const Setup& setup, Executor& executor) {
   const VoxelGrid& grid = setup.volume->grid();
-  RenderSettings look = small_look();
+  RenderSettings look = small_look(setup);
   Bounds all{grid.min, grid.max};
   for (const Mesh& mesh : setup.targets) all.add(bounds(mesh));
   const auto corner = [](const Vec3& low, const Vec3& high, int k) {
@@ -120,7 +121,7 @@ Cell volume_cell(const Preview& preview, Executor& executor) {
 Cell curves_cell(const Preview& preview, Executor& executor) {
   const CurveTarget& target = *preview.setup->curves;
   const std::vector<GuidingCurve>& curves = target.cost().settings().curves;
-  Cell cell{curve_view(*preview.setup, small_look(), executor), {}};
+  Cell cell{curve_view(*preview.setup, small_look(*preview.setup), executor), {}};
   add_text(cell, counted(curves.size(), "curve"));
   for (const std::string& extra : extras_in_words(target.cost().settings())) add_text(cell, extra);
   for (std::uint32_t i = 0; i < curves.size(); ++i) {
@@ -145,7 +146,7 @@ Picture sample_picture(const Setup& setup, std::size_t place, const Model& model
   const std::size_t index = place - (setup.volume ? 1 : 0);
   if (index < setup.silhouettes.size())
     return fit_marks(mark_silhouette(*setup.silhouettes[index], model.instances), kCell);
-  return curve_view(setup, model, setup.graph().materials, small_look(), executor);
+  return curve_view(setup, model, setup.graph().materials, small_look(setup), executor);
 }
 
 /// One row: what is wanted, then the samples. `place`: of the target in its objective.

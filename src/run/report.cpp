@@ -50,8 +50,9 @@ std::string data_json(const ReportInput& input) {
   out += fmt::format("\"optimum\": {},\n", dump(input.result.explanation.optimum));
   out += fmt::format("{} {},\n", kTimesLine, dump(seconds));
   out += fmt::format("\"evaluations\": {},\n\"best\": {},\n\"mean\": {},\n", dump(evaluations), dump(best), dump(mean));
-  const std::array<std::uint32_t, 2> picture = input.setup.scene.output.picture;
-  out += fmt::format("\"picture\": [{}, {}],\n", picture[0], picture[1]);
+  const SceneOutput& output = input.setup.scene.output;
+  out += fmt::format("\"picture\": [{}, {}],\n", output.picture[0], output.picture[1]);
+  out += fmt::format("\"side\": [{}, {}],\n", output.azimuth_deg, output.elevation_deg);
   return out + fmt::format("\"model\": {}\n}}", json_for_script(input.model.header));
 }
 
