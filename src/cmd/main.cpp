@@ -204,7 +204,7 @@ void declare_render(CLI::App& app, CommandLine& line) {
   verb->add_flag("--transparent", o.transparent, "Alpha instead of a background; the ground's shadow stays");
   verb->add_flag("--no-ground", o.no_ground, "No ground and no shadow on it");
   verb->add_option("--view", o.view, "full, parts (what targets see without details), or bones (full)");
-  verb->add_flag("--targets", o.targets, "The scene's meshes as ghosts, as in a run's best.png");
+  verb->add_flag("--targets", o.targets, "The scene's meshes as ghosts, as in a run's best.png, and its curves over the model");
   verb->add_option("--turntable", o.turntable, "So many frames around the model, in one strip");
   verb->add_option("--columns", o.columns, "Columns of the strip (near to 4:3)");
   verb->add_option("--frames", o.frames, "Folder for the frames of a turntable: 0001.png ..");

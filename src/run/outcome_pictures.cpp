@@ -50,7 +50,7 @@ OutcomePicture curves_outcome(const Outcome& outcome, const OutcomeLook& look, E
   settings.width = look.view[0], settings.height = look.view[1], settings.samples = look.view_samples;
   const MarkedCurves marked = mark_curves(target, outcome.model);
   return {OutcomeKind::curves, fmt::format("curves, {}", counted(outcome.model.bones.size(), "bone")),
-          curve_view(outcome.setup, outcome.model, outcome.surfaces, settings, executor),
+          curve_view(curve_stage(outcome.setup), outcome.model, outcome.surfaces, settings, executor),
           legend_of(marked, target.cost().settings())};
 }
 

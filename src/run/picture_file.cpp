@@ -10,6 +10,7 @@
 #include "io/png.h"
 #include "model/expand.h"
 #include "render/bone_model.h"
+#include "run/curve_view.h"
 #include "run/scene_toml.h"
 #include "run/setup.h"
 #include "run/toml_value.h"
@@ -26,6 +27,8 @@ struct Subject {
   Surfaces surfaces;
   std::vector<Mesh> ghosts;
   bool truncated = false;
+  Model whole = {};  // with its bones, where the model above shows only them
+  std::unique_ptr<const CurveTarget> curves = {};  // drawn over it; null: none
 };
 
 Subject subject_of(const LoadedGrammar& grammar, const Derivation& derivation, PictureView view, MeshSource& source) {
@@ -37,24 +40,35 @@ Subject subject_of(const LoadedGrammar& grammar, const Derivation& derivation, P
     if (model.bones.empty()) throw Error(fmt::format("{}: makes no bones to show", grammar.path));
     LineDrawing bones = bone_model(
         model, [&](std::uint32_t gene) { return std::size_t{graph.edges[derivation.genes[gene].edge].child}; });
-    return {std::move(bones.model), std::move(bones.meshes), std::move(bones.surfaces), {}, truncated};
+    return {std::move(bones.model), std::move(bones.meshes), std::move(bones.surfaces), {}, truncated, std::move(model)};
   }
   TextureTable textures = load_textures(grammar);
   Surfaces surfaces(graph, model, textures);
   return {std::move(model), load_meshes(grammar, source), std::move(surfaces), {}, truncated};
 }
 
-/// The meshes that the scene of a run is to fill or to avoid, in their places.
-std::vector<Mesh> scene_targets(const Provenance& provenance, const std::string& name, const std::string& folder,
-                                MeshSource& source) {
+/// The meshes that the scene of a run is to fill or to avoid, in their places, and its curves.
+void add_targets(Subject& subject, const Provenance& provenance, const std::string& name, const std::string& folder,
+                 MeshSource& source) {
   if (provenance.settings.empty() || parse_toml(provenance.settings, name).find("espalier_sample"))
     throw Error(fmt::format("{}: comes from no scene; --targets needs a file of a run", name));
   const Scene scene = parse_scene(provenance.settings, name, folder);
-  if (scene.volume.meshes.empty()) throw Error(fmt::format("{}: its scene has no meshes for --targets to show", name));
-  std::vector<Mesh> targets;
+  const CurveSettings& curves = scene.curves.settings;
+  if (scene.volume.meshes.empty() && curves.curves.empty())
+    throw Error(fmt::format("{}: its scene has no meshes or curves for --targets to show", name));
   for (const SceneMesh& mesh : scene.volume.meshes)
-    targets.push_back(place_mesh(source.load((fs::path(folder) / mesh.file).string()), mesh));
-  return targets;
+    subject.ghosts.push_back(place_mesh(source.load((fs::path(folder) / mesh.file).string()), mesh));
+  if (!curves.curves.empty()) subject.curves = std::make_unique<CurveTarget>(curves);
+}
+
+/// The curves of a subject that has some, marked by what its bones do.
+CurveDrawing drawing_of(const Subject& s) {
+  const Model& with_bones = s.whole.bones.empty() ? s.model : s.whole;
+  MarkedCurves marked = mark_curves(*s.curves, with_bones);
+  marked.bones.clear();
+  Model shown = s.model;
+  shown.bones.clear();
+  return CurveDrawing({*s.curves, s.meshes, s.ghosts}, shown, marked);
 }
 
 std::string png_of(const Picture& picture, const PictureRequest& request, Provenance provenance) {
@@ -71,7 +85,33 @@ std::string png_of(const Picture& picture, const PictureRequest& request, Proven
 }
 
 Picture draw_one(const Subject& s, const PictureRequest& request, Executor& executor) {
-  return render(s.model, s.meshes, s.surfaces, s.ghosts, render_settings(request), executor);
+  RenderSettings look = render_settings(request);
+  if (!s.curves) return render(s.model, s.meshes, s.surfaces, s.ghosts, look, executor);
+  const CurveDrawing drawing = drawing_of(s);
+  look.place = drawing.place(look);
+  Picture picture = render(s.model, s.meshes, s.surfaces, drawing.ghosts(), look, executor);
+  lay_over(picture, drawn_alone(drawing.wires(), look, executor));
+  return picture;
+}
+
+/// Turns the subject, and the curves over it frame by frame.
+void turn(const Subject& s, RenderSettings look, const Turntable& turntable, Executor& executor,
+          const std::function<void(std::uint32_t frame, Picture picture)>& take) {
+  if (!s.curves) return render_turntable(s.model, s.meshes, s.surfaces, s.ghosts, look, turntable, executor, take);
+  const CurveDrawing drawing = drawing_of(s);
+  look.place = drawing.turning_place(look);
+  RenderSettings over = look;
+  over.transparent = true, over.ground = false;
+  over.background.reset();
+  const LineDrawing& wires = drawing.wires();
+  render_turntable(s.model, s.meshes, s.surfaces, drawing.ghosts(), look, turntable, executor,
+                   [&](std::uint32_t number, Picture frame) {
+                     Turntable one = turntable;
+                     one.only = number;
+                     render_turntable(wires.model, wires.meshes, wires.surfaces, {}, over, one, executor,
+                                      [&](std::uint32_t, const Picture& lines) { lay_over(frame, lines); });
+                     take(number, std::move(frame));
+                   });
 }
 
 using TakeFrame = std::function<void(std::uint32_t frame, const Picture& picture)>;
@@ -83,13 +123,12 @@ std::optional<Picture> draw_turntable(const Subject& s, const PictureRequest& re
   const std::uint32_t columns =
       request.columns > 0 ? request.columns : strip_columns(request.frames, request.size[0], request.size[1]);
   const Turntable turntable{request.frames, request.fixed_light, request.frame};
-  render_turntable(s.model, s.meshes, s.surfaces, s.ghosts, render_settings(request), turntable, executor,
-                   [&](std::uint32_t number, const Picture& frame) {
-                     take(number, frame);
-                     if (!strip_wanted) return;
-                     if (!strip) strip = empty_strip(request.frames, frame, columns);
-                     paste_frame(*strip, frame, number, columns);
-                   });
+  turn(s, render_settings(request), turntable, executor, [&](std::uint32_t number, const Picture& frame) {
+    take(number, frame);
+    if (!strip_wanted) return;
+    if (!strip) strip = empty_strip(request.frames, frame, columns);
+    paste_frame(*strip, frame, number, columns);
+  });
   return strip;
 }
 
@@ -150,7 +189,7 @@ PictureReport write_pictures(const PictureJob& job, MeshSource& source, Executor
   Subject subject = subject_of(grammar, derivation, job.request.view, source);
   if (job.request.targets) {
     const Provenance original = read_provenance(job.derivation);
-    subject.ghosts = scene_targets(original, job.derivation, settings_folder_of(job.derivation, original), source);
+    add_targets(subject, original, job.derivation, settings_folder_of(job.derivation, original), source);
   }
   PictureReport report{adapted, subject.truncated, {}};
   const auto write = [&](const std::string& path, const Picture& picture, const PictureRequest& request) {
@@ -181,7 +220,7 @@ std::string picture_again(const PictureRequest& request, const Derivation& deriv
   const std::string name = "the picture's settings";
   const LoadedGrammar grammar = grammar_of_settings(provenance.settings, name, folder, {});
   Subject subject = subject_of(grammar, derivation, request.view, source);
-  if (request.targets) subject.ghosts = scene_targets(provenance, name, folder, source);
+  if (request.targets) add_targets(subject, provenance, name, folder, source);
   if (request.frames == 0) return png_of(draw_one(subject, request, executor), request, provenance);
   if (!request.frame) check_strip(request);
   std::optional<Picture> frame;

@@ -121,7 +121,7 @@ Cell volume_cell(const Preview& preview, Executor& executor) {
 Cell curves_cell(const Preview& preview, Executor& executor) {
   const CurveTarget& target = *preview.setup->curves;
   const std::vector<GuidingCurve>& curves = target.cost().settings().curves;
-  Cell cell{curve_view(*preview.setup, small_look(*preview.setup), executor), {}};
+  Cell cell{curve_view(curve_stage(*preview.setup), small_look(*preview.setup), executor), {}};
   add_text(cell, counted(curves.size(), "curve"));
   for (const std::string& extra : extras_in_words(target.cost().settings())) add_text(cell, extra);
   for (std::uint32_t i = 0; i < curves.size(); ++i) {
@@ -146,7 +146,7 @@ Picture sample_picture(const Setup& setup, std::size_t place, const Model& model
   const std::size_t index = place - (setup.volume ? 1 : 0);
   if (index < setup.silhouettes.size())
     return fit_marks(mark_silhouette(*setup.silhouettes[index], model.instances), kCell);
-  return curve_view(setup, model, setup.graph().materials, small_look(setup), executor);
+  return curve_view(curve_stage(setup), model, setup.graph().materials, small_look(setup), executor);
 }
 
 /// One row: what is wanted, then the samples. `place`: of the target in its objective.

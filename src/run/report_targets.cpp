@@ -48,7 +48,7 @@ ReportPicture silhouette_picture(const SilhouetteTarget& target) {
 ReportPicture curves_picture(const Setup& setup, const RenderSettings& look, Executor& executor) {
   const CurveTarget& target = *setup.curves;
   const CurveSettings& settings = target.cost().settings();
-  const Picture drawn = curve_view(setup, look, executor);
+  const Picture drawn = curve_view(curve_stage(setup), look, executor);
   std::string caption;
   for (std::uint32_t i = 0; i < std::min<std::size_t>(settings.curves.size(), kMostCurvesTold); ++i)
     caption += curve_in_words(target, i) + ": " + settings_in_words(settings.curves[i]) + ". ";
