@@ -19,6 +19,17 @@ void take_all(std::array<double, N>& out, const std::optional<std::vector<double
   if (numbers) std::copy(numbers->begin(), numbers->end(), out.begin());
 }
 
+/// Rules that join several keys. Errors begin with `prefix` and the key to blame, which `section` has.
+void check(const TomlSection& section, const CurveSettings& settings, const std::string& prefix) {
+  try {
+    validate(settings);
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    const std::size_t end = text.find(' ');
+    section.fail(text.substr(prefix.size(), end - prefix.size()), text.substr(end + 1));
+  }
+}
+
 GuidingCurve read_curve(const TomlValue& table, const std::string& file, std::size_t index) {
   TomlSection s(table, file, fmt::format("curves.curve.{}", index));
   GuidingCurve curve;
@@ -32,6 +43,7 @@ GuidingCurve read_curve(const TomlValue& table, const std::string& file, std::si
   take(curve.segment, s.number("segment", 1e-6, kFarthest));
   take_all(curve.thickness, s.numbers("thickness", 2, 0, kFarthest, true));
   s.finish();
+  check(s, {{curve}}, "curve.0.");
   return curve;
 }
 
@@ -45,6 +57,7 @@ BoneDensity read_density(const TomlValue& table, const std::string& file) {
   take(density.wanted, s.number("wanted", 0, 1e9));
   take(density.cost, s.number("cost", 0, kMostWeight));
   s.finish();
+  check(s, {{GuidingCurve()}, false, 0, density}, "density.");
   return density;
 }
 
@@ -74,11 +87,7 @@ SceneCurves read_curves(const TomlValue& table, const std::string& file) {
   for (std::size_t i = 0; i < curves->size(); ++i) out.settings.curves.push_back(read_curve((*curves)[i], file, i));
   if (const TomlValue* density = s.table("density")) out.settings.density = read_density(*density, file);
   s.finish();
-  try {
-    validate(out.settings);
-  } catch (const Error& error) {
-    throw Error(fmt::format("{}:{}:{}: curves.{}", file, table.line, table.column, error.what()));
-  }
+  check(s, out.settings, "");
   return out;
 }
 
