@@ -6,11 +6,9 @@
 #include <array>
 #include <cstdint>
 
-#include <glm/vec3.hpp>
+#include "base/vec.h"
 
 namespace espalier {
-
-using DVec3 = glm::dvec3;
 
 struct Projection {
   std::array<std::array<double, 4>, 3> matrix{};
