@@ -29,8 +29,9 @@ Shell shell_of(const Model& model, const MeshTable& meshes);
 /// As many as the files of the model would hold, those without area among them.
 std::uint64_t triangle_count(const Shell& shell);
 
-/// Flatter than this share of their longest side squared, triangles have no area: rounding makes such of points in a line.
-inline constexpr double kLeastAreaShare = 1e-12;
+/// Triangles with less than this share of their longest side squared count as having no area. Single precision makes such
+/// of points in a line, and they may stick out far from everything that is seen.
+inline constexpr double kLeastAreaShare = 1e-6;
 
 inline double area(const DVec3& a, const DVec3& b, const DVec3& c) {
   return 0.5 * glm::length(glm::cross(b - a, c - a));

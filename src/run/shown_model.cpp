@@ -16,7 +16,8 @@ bool names_mesh(const std::string& path) {
 }
 
 ShownModel load_shown_model(const std::string& path, const std::string& grammar,
-                            const std::map<std::string, std::string>& attributes, MeshSource& source) {
+                            const std::map<std::string, std::string>& attributes, MeshSource& source,
+                            std::uint64_t most_triangles) {
   ShownModel shown;
   shown.is_mesh = names_mesh(path);
   if (shown.is_mesh) {
@@ -28,8 +29,8 @@ ShownModel load_shown_model(const std::string& path, const std::string& grammar,
     shown.shell = shell_of(model, load_meshes(loaded.grammar, source));
     shown.adapted = loaded.adapted, shown.truncated = model.truncated;
   }
-  if (const std::uint64_t triangles = triangle_count(shown.shell); triangles > ShownModel::kMostTriangles)
-    throw Error(fmt::format("{}: must have at most {} triangles, got {}", path, ShownModel::kMostTriangles, triangles));
+  if (const std::uint64_t triangles = triangle_count(shown.shell); triangles > most_triangles)
+    throw Error(fmt::format("{}: must have at most {} triangles, got {}", path, most_triangles, triangles));
   return shown;
 }
 

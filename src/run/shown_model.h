@@ -11,7 +11,7 @@
 namespace espalier {
 
 struct ShownModel {
-  static constexpr std::uint64_t kMostTriangles = 200'000'000;
+  static constexpr std::uint64_t kMostTriangles = 200'000'000;  // 20 s to look through
 
   Shell shell;
   bool is_mesh = false;     // read as it is; else built from a derivation
@@ -24,8 +24,9 @@ bool names_mesh(const std::string& path);
 
 /// A mesh file as it is, whoever made it; or the model of the derivation that `path` names (find_derivation), with its
 /// details, built by `grammar` and with `attributes` as load_derivation does. Throws Error naming the path, also where
-/// there are more than kMostTriangles.
+/// there are more than `most_triangles`.
 ShownModel load_shown_model(const std::string& path, const std::string& grammar,
-                            const std::map<std::string, std::string>& attributes, MeshSource& source);
+                            const std::map<std::string, std::string>& attributes, MeshSource& source,
+                            std::uint64_t most_triangles = ShownModel::kMostTriangles);
 
 }  // namespace espalier

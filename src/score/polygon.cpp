@@ -41,7 +41,7 @@ DVec3 Polygon::point(double at, double r, double s) const {
   }
   // Turk, Generating random points in triangles, Graphics Gems 1990.
   const double t = std::sqrt(r);
-  return (1 - t) * corners_[0] + t * (1 - s) * corners_[i] + t * s * corners_[i + 1];
+  return corners_[0] + t * ((1 - s) * (corners_[i] - corners_[0]) + s * (corners_[i + 1] - corners_[0]));
 }
 
 void cut(const Polygon& polygon, int axis, double at, Polygon& below, Polygon& above) {

@@ -32,13 +32,13 @@ class PointDrawer {
     std::vector<std::uint64_t> pieces(groups(), 0);
     executor_.for_each(groups(), [&](std::size_t group, int) {
       for_each_piece(group, [&](std::uint32_t voxel, const Polygon&, double area) {
-        if (++pieces[group] > kMostPieces) refuse();
+        if (++pieces[group] > settings_.most_pieces) refuse();
         areas[voxel] += area;
       });
     });
     std::uint64_t all = 0;
     for (const std::uint64_t count : pieces) all += count;
-    if (all > kMostPieces) refuse();
+    if (all > settings_.most_pieces) refuse();
     return areas;
   }
 
@@ -72,8 +72,9 @@ class PointDrawer {
   }
 
  private:
-  [[noreturn]] static void refuse() {
-    throw Error(fmt::format("its triangles must become at most {} pieces in the voxels, got more", kMostPieces));
+  [[noreturn]] void refuse() const {
+    throw Error(fmt::format("voxels must cut the triangles into at most {} pieces, got more; fewer voxels or triangles "
+                            "make fewer", settings_.most_pieces));
   }
 
   /// Each works on layers of its own along z, so the order in which a voxel meets its pieces is always the triangles'.

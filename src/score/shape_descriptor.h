@@ -28,6 +28,8 @@ struct DescriptorSettings {
   std::optional<double> range;
   std::uint64_t seed = 1;
   std::uint32_t draw = 0;  // another one draws other points from the same seed
+  /// Into which the voxels may cut the triangles, all together: a minute's work.
+  std::uint64_t most_pieces = 250'000'000;
 };
 
 /// Throws Error with rule and value.
@@ -43,13 +45,11 @@ struct ShapeDescriptor {
 
 /// The descriptor of a shell whose triangles lie in the box of `grid`. Points are drawn evenly from the surface, exactly:
 /// triangles are cut at the voxels' faces and points are drawn from the pieces. A voxel's points depend only on seed,
-/// draw, voxel, and the surface in it. The same bytes for any number of threads. Throws Error where the voxels cut the
-/// surface into more than kMostPieces pieces. Time: two passes over the triangles, about 0.1 us each and piece; memory:
-/// 80 bytes per pair, nothing per triangle.
+/// draw, voxel, and the surface in it, so voxels with the same surface are equal. The same bytes for any number of
+/// threads. Throws Error for bad settings and where there are too many pieces. Time: two passes over the triangles, about
+/// 0.1 us for each piece; memory: 80 bytes per pair, nothing per triangle.
 ShapeDescriptor describe(const Shell& shell, const Subdivision& grid, const DescriptorSettings& settings,
                          Executor& executor);
-
-inline constexpr std::uint64_t kMostPieces = 1'000'000'000;
 
 /// Kolmogorov and Smirnov's distance per voxel: the largest difference of the two shares of distances up to a bin's end,
 /// for every bin; a multiple of 1 / pairs in [0, 1]. An empty voxel has an empty histogram, whose share is 0 throughout,

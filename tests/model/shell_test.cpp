@@ -38,7 +38,8 @@ TEST(Shell, PlacesItsParts) {
 }
 
 TEST(Shell, TrianglesInALineHaveNoArea) {
-  EXPECT_TRUE(has_area({0, 0, 0}, {1, 0, 0}, {0, 1e-9, 0}));
+  EXPECT_TRUE(has_area({0, 0, 0}, {1, 0, 0}, {0, 1e-5, 0}));
+  EXPECT_FALSE(has_area({0, 0, 0}, {1, 0, 0}, {0, 1e-6, 0}));
   EXPECT_FALSE(has_area({0, 0, 0}, {1, 0, 0}, {1, 0, 0}));
   EXPECT_FALSE(has_area({0.1, 0.2, 0.3}, {1.1, 2.2, 3.3}, {0.1 + 1.0 / 3, 0.2 + 2.0 / 3, 0.3 + 1}));
   EXPECT_TRUE(has_area({0, 0, 0}, {1e-20, 0, 0}, {0, 1e-20, 0}));
