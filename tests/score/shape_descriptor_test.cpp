@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -254,6 +255,10 @@ TEST(ShapeDescriptor, TrianglesWithoutAreaChangeNothing) {
 TEST(ShapeDescriptor, FlatModelsLieInOneLayer) {
   const ShapeDescriptor flat = describe_alone(square(4, 1), {});
   for (std::size_t v = 0; v < 64; ++v) EXPECT_NEAR(flat.areas[v], v / 16 == 2 ? 1 : 0, 0.003);
+  std::set<std::vector<std::uint32_t>> different;  // all hold the same square, but each has points of its own
+  for (auto row = flat.counts.begin() + 32 * 10; row < flat.counts.begin() + 48 * 10; row += 10)
+    different.emplace(row, row + 10);
+  EXPECT_GT(different.size(), 12u);
   // A plane that an exporter left a little rough is the same to within chance.
   Shell rough = square(4, 1);
   rough.meshes[0].positions[2].z = 1.000001f;

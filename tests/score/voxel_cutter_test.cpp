@@ -153,6 +153,25 @@ TEST(VoxelCutter, SurvivesNeedles) {
   }
 }
 
+TEST(Polygon, IsCutOnceWhereItLies) {
+  const Polygon flat({0, 0, 3}, {2, 0, 3}, {2, 2, 3});
+  Polygon below, above;
+  cut(flat, 2, 3, below, above);
+  EXPECT_EQ(below.count(), 0u) << "in the plane: above";
+  EXPECT_DOUBLE_EQ(above.area(), 2);
+  cut(flat, 0, 2, below, above);
+  EXPECT_DOUBLE_EQ(below.area(), 2) << "an edge in the plane";
+  EXPECT_EQ(above.area(), 0);
+  cut(flat, 0, 0, below, above);
+  EXPECT_EQ(below.area(), 0);
+  EXPECT_DOUBLE_EQ(above.area(), 2);
+  cut(flat, 0, 1, below, above);
+  EXPECT_EQ(below.count(), 3u);
+  EXPECT_DOUBLE_EQ(below.area(), 0.5);
+  EXPECT_EQ(above.count(), 4u);
+  EXPECT_DOUBLE_EQ(above.area(), 1.5);
+}
+
 TEST(Polygon, DrawsPointsEvenly) {
   Polygon house({0, 0, 3}, {2, 0, 3}, {2, 2, 3});
   house.add({1, 3, 3}), house.add({0, 2, 3});
