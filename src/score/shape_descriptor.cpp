@@ -123,8 +123,9 @@ void validate(const DescriptorSettings& s) {
   if (voxels * s.pairs > DescriptorSettings::kMostPairsInAll)
     throw Error(fmt::format("voxels times pairs must be at most {}, got {} x {}", DescriptorSettings::kMostPairsInAll,
                             voxels, s.pairs));
-  if (s.range && !(*s.range > 0 && *s.range <= DescriptorSettings::kMostRange))
-    throw Error(fmt::format("range must be above 0 and at most {} m, got {}", DescriptorSettings::kMostRange, *s.range));
+  if (s.range && !(*s.range >= DescriptorSettings::kLeastRange && *s.range <= DescriptorSettings::kMostRange))
+    throw Error(fmt::format("range must be from {} to {} m, got {}", DescriptorSettings::kLeastRange,
+                            DescriptorSettings::kMostRange, *s.range));
 }
 
 ShapeDescriptor describe(const Shell& shell, const Subdivision& grid, const DescriptorSettings& settings,

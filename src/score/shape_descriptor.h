@@ -17,14 +17,14 @@ namespace espalier {
 struct DescriptorSettings {
   static constexpr std::uint32_t kMostPairs = 100'000, kMostBins = 100;
   static constexpr std::uint64_t kMostPairsInAll = 1u << 23;  // of a grid; about 80 bytes each while they are drawn
-  static constexpr double kMostRange = 1e9;                   // m
+  static constexpr double kLeastRange = 1e-9, kMostRange = 1e9;  // m
 
   std::uint32_t layers = 4;  // of the grid along each axis, 1 to Subdivision::kMostLayers
   /// Of points per voxel, 1 to kMostPairs. They set the noise: of a surface to itself with other points the median
   /// distance, over voxels with surface, is about 0.7 / sqrt(pairs): 0.12 with 30, 0.02 with 1000 (docs/tools.md).
   std::uint32_t pairs = 30;
   std::uint32_t bins = 10;   // of a histogram, 2 to kMostBins; equally wide, from 0 to `range`
-  /// In metres, above 0; longer distances count in the last bin. Without it the diagonal of a voxel, the longest distance
+  /// In metres, kLeastRange to kMostRange; longer distances count in the last bin. Without it the diagonal of a voxel, the longest distance
   /// there is, so that size does not count. Published: 1.5, for models of a few metres: that is the diagonal of a voxel
   /// for a cube of 3.5 m.
   std::optional<double> range;

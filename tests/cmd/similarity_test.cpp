@@ -91,6 +91,19 @@ TEST_F(SimilarityVerb, TakesRunsSamplesAndPictures) {
   EXPECT_THAT(espalier({"similarity", "s", "box.obj"}).err, HasSubstr("name one of its files"));
 }
 
+TEST_F(SimilarityVerb, TheExampleOfTheDocsIsTrue) {
+  for (const char* steps : {"20", "40"}) {
+    const ChildResult sample =
+        espalier({"sample", std::string(ESPALIER_SOURCE_DIR) + "/grammars/guided-tree.esp", "-n", "1", "--grow", steps,
+                  "--seed", "3", "--out", std::string("out/grown-") + steps});
+    ASSERT_EQ(sample.exit_code, 0) << sample.err;
+  }
+  const ChildResult result = espalier({"similarity", "out/grown-20/01.derivation.json", "out/grown-40/01.glb", "--pairs",
+                                       "1000", "--box", "shared"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(read_text(std::string(ESPALIER_SOURCE_DIR) + "/docs/tools.md"), HasSubstr("```text\n" + result.out + "```"));
+}
+
 TEST_F(SimilarityVerb, SaysWhatShowsNothing) {
   write_text(folder_ / "none.esp", "grammar none 1\nstart S\nrule S { bone (0, 0, 0) -> (0, 1, 0) }\n");
   ASSERT_EQ(espalier({"sample", "none.esp", "-n", "1", "--out", "s"}).exit_code, 0);
@@ -111,8 +124,8 @@ TEST_F(SimilarityVerb, BadInputExitsWithTwoAndSaysWhy) {
       {{"box.obj", "slab.obj", "--pairs", "100001"}, "pairs must be from 1 to 100000, got 100001"},
       {{"box.obj", "slab.obj", "--pairs", "-1"}, "--pairs"},
       {{"box.obj", "slab.obj", "--bins", "101"}, "bins must be from 2 to 100, got 101"},
-      {{"box.obj", "slab.obj", "--range", "0"}, "range must be above 0 and at most 1000000000 m, got 0"},
-      {{"box.obj", "slab.obj", "--range", "nan"}, "range must be above 0"},
+      {{"box.obj", "slab.obj", "--range", "0"}, "range must be from 1e-09 to 1000000000 m, got 0"},
+      {{"box.obj", "slab.obj", "--range", "nan"}, "range must be from"},
       {{"box.obj", "slab.obj", "--box", "mine"}, "--box must be own or shared, got \"mine\""},
       {{"box.obj", "slab.obj", "--over", "some"}, "--over must be all or occupied, got \"some\""},
       {{"box.obj", "slab.obj", "--csv", ""}, "--csv"},
