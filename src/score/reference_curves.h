@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "base/dvec.h"
+#include "base/vec.h"
 #include "model/model.h"
 #include "score/guiding_curve.h"
 
