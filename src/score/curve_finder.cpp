@@ -56,6 +56,7 @@ CurveFinder::Prepared CurveFinder::prepare(const CubicBezier& curve) {
   // What floats may lose is put on top.
   out.gap = static_cast<float>(gap + 1e-6 * largest);
   out.radius += static_cast<float>(1e-6 * largest);
+  out.still = 1e-5f * std::max({length(out.power[1]), length(out.power[2]), length(out.power[3])});
   return out;
 }
 
@@ -66,7 +67,7 @@ CurveFinder::Hit CurveFinder::refine(const Prepared& curve, const Vec3& p, float
   const std::array<Vec3, 4>& c = curve.power;
   Vec3 away = point(c, t) - p;
   Hit best{t, dot(away, away)};
-  for (int turn = 0; turn < 4; ++turn) {
+  for (int turn = 0; turn < 8; ++turn) {  // half as many leave errors of 0.01 here and there
     const Vec3 first = c[1] + t * (2.0f * c[2] + t * (3.0f * c[3]));
     const Vec3 second = 2.0f * c[2] + t * (6.0f * c[3]);
     const float slope = dot(away, first), speed2 = dot(first, first);
@@ -79,7 +80,8 @@ CurveFinder::Hit CurveFinder::refine(const Prepared& curve, const Vec3& p, float
     t = next;
     away = point(c, t) - p;
     const float distance2 = dot(away, away);
-    if (distance2 < best.distance2) best = {t, distance2};
+    // Of what is equally far but for rounding, the later one: distances tell t to no better than the root of that.
+    if (distance2 < 1.000001f * best.distance2) best = {t, distance2};
     if (std::abs(step) < 1e-5f) break;
   }
   return best;
@@ -101,7 +103,7 @@ CurveFinder::Hit CurveFinder::closest(const Prepared& curve, const Vec3& p) {
   }
   const float smallest = std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
   const float reach = std::sqrt(smallest) + 2 * curve.gap;
-  const float reach2 = reach * reach;
+  const float reach2 = std::max(reach * reach, smallest);  // far away a small gap is lost in rounding
   // One start in each valley that may hold the nearest point.
   float distance2[kChords];
   std::memcpy(distance2, near2.data(), sizeof distance2);
@@ -120,8 +122,8 @@ Vec3 CurveFinder::tangent(const Prepared& curve, float t) {
   const std::array<Vec3, 4>& c = curve.power;
   Vec3 way = c[1] + t * (2.0f * c[2] + t * (3.0f * c[3]));
   float size = length(way);
-  if (!(size > 1e-12f)) {
-    // It stands still here: where it comes from, and where it goes.
+  if (!(size > curve.still)) {
+    // It stands still here, but for rounding: where it comes from, and where it goes.
     constexpr float kAside = 1.0f / 64;
     way = point(c, std::min(t + kAside, 1.0f)) - point(c, std::max(t - kAside, 0.0f));
     size = length(way);

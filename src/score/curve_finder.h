@@ -40,6 +40,7 @@ class CurveFinder {
     std::array<Row, kRows> from[3], along[3], per_length2;
     std::array<Vec3, 4> power;  // coefficients of t^0 .. t^3
     float gap = 0;              // no point is further from its chord, m
+    float still = 0;            // a derivative no longer than that is rounding
     Vec3 centre{0};             // a ball around the curve
     float radius = 0;
   };
