@@ -20,10 +20,10 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::CappedTag<float, CurveTable::kChords>;
+using Floats = hn::CappedTag<float, 8>;
 using Row = hn::Vec<Floats>;
 
-/// Of the eight chords: squared distances, and where along the chord the nearest point is, 0..1.
+/// Of the chords: squared distances, and where along the chord the nearest point is, 0..1.
 struct alignas(32) ChordScan {
   float distance2[CurveTable::kChords], at[CurveTable::kChords];
 };
@@ -80,7 +80,7 @@ void refine_from(const Xyz power[4], Xyz p, float t, CurveHit& best) {
     const float distance2 = dot(away, away);
     // Of what is equally far but for rounding, the later one: distances tell t to no better than the root of that.
     if (distance2 < 1.000001f * found.distance2) found = {t, distance2};
-    if (moved < 2e-4f) break;  // the error after a step goes with its square
+    if (moved < 1e-5f) break;
   }
   if (found.distance2 < best.distance2) best = found;
 }

@@ -8,7 +8,7 @@ namespace espalier {
 
 /// One curve, made ready. Chord i runs from t = i / kChords over 1 / kChords.
 struct alignas(32) CurveTable {
-  static constexpr std::size_t kChords = 8;
+  static constexpr std::size_t kChords = 16;
 
   float from[3][kChords], along[3][kChords];  // by axis, m
   float per_length2[kChords];                 // 1 / squared length; 0 where a chord is a point
