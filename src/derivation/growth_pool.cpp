@@ -171,7 +171,7 @@ ShootId GrowthPool::decide(GrowingDerivation& growing, RandomStream& random) {
   const Edge& edge = graph_.edges[bud.edge];
   const bool room = growing.ledger.has_room(edge.child);
   const bool wanted = edge.required || random.chance(fill_probability(edge, counts_above(bud.shoot)));
-  if (!wanted || (!room && !edge.required)) {
+  if (!wanted) {
     leave_empty(growing, id);
     return kNoShoot;
   }

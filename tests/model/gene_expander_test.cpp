@@ -127,6 +127,10 @@ class Growths {
       EXPECT_EQ(sorted_bits(bones), sorted_bits(model_.bones));
       all += bones.size();
     }
+    Frame frame;
+    for (BudId bud = 0; bud < pool_.buds(); ++bud) {
+      EXPECT_FALSE(pool_.bud(bud).absent && expander_.frame(bud, frame)) << "nothing may stand there";
+    }
     return all;
   }
 
@@ -310,6 +314,32 @@ rule Twig when depth < 7 {
     }
     check_frames(pool, expander, tree, bones);
   }
+}
+
+TEST(GeneExpander, OfSeveralCopiesTheFirstHasTheFrame) {
+  const auto graph = compiled(R"(grammar copies 1
+start Root
+rule Root { mirror x { move x 1  spawn Twig }  move y 5  around y 3 { move z 2  spawn Twig } }
+rule Twig { bone (0, 0, 0) -> (0, 1, 0) }
+)");
+  ASSERT_TRUE(graph);
+  GrowthPool pool(*graph);
+  GeneExpander expander(*graph);
+  RandomStream random = stream_of(310);
+  GrowingDerivation tree = pool.begin(random);
+  expander.run(pool, tree.last);
+  const BudId mirrored = pool.shoot(tree.last).first_bud;
+  Frame frame;
+  ASSERT_TRUE(expander.frame(mirrored, frame));
+  EXPECT_EQ(frame.origin, Vec3(1, 0, 0));
+  ASSERT_TRUE(expander.frame(mirrored + 1, frame));
+  EXPECT_EQ(frame.origin, Vec3(0, 5, 2));
+  GrowthRenumbering renumbering;
+  GrowingDerivation* const living[] = {&tree};
+  pool.keep_only(living, renumbering);
+  expander.renumber(renumbering);
+  ASSERT_TRUE(expander.frame(mirrored, frame));
+  EXPECT_EQ(frame.origin, Vec3(1, 0, 0));
 }
 
 TEST(GeneExpander, ForgetsWithThePool) {

@@ -70,6 +70,13 @@ TEST(GuidingCurveSettings, TheFirstFaultIsTold) {
   EXPECT_EQ(fault, "curve.1.offset must be -1 to 1, got 3");
 }
 
+TEST(GuidingCurveSettings, EveryCurveIsLookedAt) {
+  for (const std::size_t i : {0u, 1u, 2u}) {
+    EXPECT_EQ(fault_after([&](CurveSettings& s) { s.curves[i].alignment = -1; }),
+              "curve." + std::to_string(i) + ".alignment must be 0 to 1000000, got -1");
+  }
+}
+
 TEST(GuidingCurveSettings, BoundsAreAllowed) {
   EXPECT_EQ(curve_fault([](GuidingCurve& g) { g.offset = -1, g.thickness = {0, 1e5}, g.alignment = 0; }), "");
   EXPECT_EQ(curve_fault([](GuidingCurve& g) { g.offset = 1, g.utilisation = 1e6, g.distance = {-1e6, 0, 1e6}; }), "");
