@@ -1,6 +1,6 @@
 #pragma once
-// Shell: the surface of a model and nothing else: meshes, and where each of them stands. Triangles are placed one by one
-// when they are asked for, so a model of a million parts costs no more memory than its parts.
+// Shell: the surface of a model and nothing else: meshes, and where each of them stands. Triangles are placed one by
+// one when they are asked for, so a model of a million parts costs no more memory than its parts.
 
 #include <cstdint>
 #include <vector>
@@ -29,8 +29,8 @@ Shell shell_of(const Model& model, const MeshTable& meshes);
 /// As many as the files of the model would hold, those without area among them.
 std::uint64_t triangle_count(const Shell& shell);
 
-/// Triangles with less than this share of their longest side squared count as having no area. Single precision makes such
-/// of points in a line, and they may stick out far from everything that is seen.
+/// Triangles with less than this share of their longest side squared count as having no area. Single precision makes
+/// such of points in a line, and they may stick out far from everything that is seen.
 inline constexpr double kLeastAreaShare = 1e-6;
 
 inline double area(const DVec3& a, const DVec3& b, const DVec3& c) {

@@ -24,9 +24,9 @@ struct DescriptorSettings {
   /// distance, over voxels with surface, is about 0.7 / sqrt(pairs): 0.12 with 30, 0.02 with 1000 (docs/tools.md).
   std::uint32_t pairs = 30;
   std::uint32_t bins = 10;   // of a histogram, 2 to kMostBins; equally wide, from 0 to `range`
-  /// In metres, kLeastRange to kMostRange; longer distances count in the last bin. Without it the diagonal of a voxel, the longest distance
-  /// there is, so that size does not count. Published: 1.5, for models of a few metres: that is the diagonal of a voxel
-  /// for a cube of 3.5 m.
+  /// In metres, kLeastRange to kMostRange; longer distances count in the last bin. Without it the diagonal of a voxel,
+  /// the longest distance there is, so that size does not count. Published: 1.5, for models of a few metres: that is
+  /// the diagonal of a voxel for a cube of 3.5 m.
   std::optional<double> range;
   std::uint64_t seed = 1;
   std::uint32_t draw = 0;  // another one draws other points from the same seed
@@ -45,17 +45,17 @@ struct ShapeDescriptor {
   bool operator==(const ShapeDescriptor&) const = default;
 };
 
-/// The descriptor of a shell whose triangles lie in the box of `grid`. Points are drawn evenly from the surface, exactly:
-/// triangles are cut at the voxels' faces and points are drawn from the pieces. A voxel's points depend only on seed,
-/// draw, voxel, and the surface in it, so voxels with the same surface are equal. The same bytes for any number of
-/// threads. Throws Error for bad settings and where there are too many pieces. Time: two passes over the triangles, about
-/// 0.1 us for each piece; memory: 80 bytes per pair, nothing per triangle.
+/// The descriptor of a shell whose triangles lie in the box of `grid`. Points are drawn evenly from the surface,
+/// exactly: triangles are cut at the voxels' faces and points are drawn from the pieces. A voxel's points depend only
+/// on seed, draw, voxel, and the surface in it, so voxels with the same surface are equal. The same bytes for any
+/// number of threads. Throws Error for bad settings and where there are too many pieces. Time: two passes over the
+/// triangles, about 0.1 us for each piece; memory: 80 bytes per pair, nothing per triangle.
 ShapeDescriptor describe(const Shell& shell, const Subdivision& grid, const DescriptorSettings& settings,
                          Executor& executor);
 
-/// Kolmogorov and Smirnov's distance per voxel: the largest difference of the two shares of distances up to a bin's end,
-/// for every bin; a multiple of 1 / pairs in [0, 1]. An empty voxel has an empty histogram, whose share is 0 throughout,
-/// so: 0 where both are empty, 1 where one is. Both must have the same layers, pairs and bins.
+/// Kolmogorov and Smirnov's distance per voxel: the largest difference of the two shares of distances up to a bin's
+/// end, for every bin; a multiple of 1 / pairs in [0, 1]. An empty voxel has an empty histogram, whose share is 0
+/// throughout, so: 0 where both are empty, 1 where one is. Both must have the same layers, pairs and bins.
 std::vector<double> voxel_distances(const ShapeDescriptor& a, const ShapeDescriptor& b);
 
 }  // namespace espalier

@@ -14,9 +14,10 @@ class Subdivision {
  public:
   static constexpr std::uint32_t kMostLayers = 16;
 
-  /// `box`: around all that will be asked for (empty: nothing will); grows by 0.1 % about its middle, so that the outermost
-  /// faces lie inside (Guiding curves 2018, section 5.1, as built there). An axis along which the box is flat, less than
-  /// a millionth of its longest side, is not cut: all lies in its middle layer, n / 2. `layers`: n, 1 to kMostLayers.
+  /// `box`: around all that will be asked for (empty: nothing will); grows by 0.1 % about its middle, so that the
+  /// outermost faces lie inside (Guiding curves 2018, section 5.1, as built there). An axis along which the box is
+  /// flat, less than a millionth of its longest side, is not cut: all lies in its middle layer, n / 2. `layers`: n, 1
+  /// to kMostLayers.
   Subdivision(const Bounds& box, std::uint32_t layers);
 
   std::uint32_t layers() const { return layers_; }
