@@ -24,7 +24,7 @@ void print_text(const std::string& file, const Provenance& p) {
   }
   if (!p.derivation.empty()) fmt::print("derivation {}\n", p.derivation);
   if (p.score) fmt::print("score {:.10g}", *p.score);
-  if (p.score && p.optimum) fmt::print(" of at most {:.10g}", *p.optimum);
+  if (p.score && p.optimum && *p.optimum > 0) fmt::print(" of at most {:.10g}", *p.optimum);
   if (p.score) fmt::print("\n");
   for (const auto& [name, hash] : p.inputs) fmt::print("input {}  {}\n", hash, name);
   if (!p.picture.empty()) fmt::print("picture:\n{}", p.picture);

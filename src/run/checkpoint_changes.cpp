@@ -39,6 +39,7 @@ std::map<std::string, std::string> by_key(const std::string& toml) {
 Scene without_what_may_differ(Scene scene) {
   scene.budget = {};
   scene.output.picture = {};
+  scene.output.azimuth_deg = scene.output.elevation_deg = 0;
   return scene;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "io/image.h"
+#include "run/output_look.h"
 #include "run/results.h"
 
 namespace espalier {
@@ -35,9 +36,9 @@ void BestFiles::write(const std::string& path) const {
 
 const Picture& BestFiles::picture() {
   if (!picture_.rgb.empty()) return picture_;
-  ModelFiles files(setup_.graph(), setup_.meshes, setup_.textures, setup_.targets, setup_.scene.output.picture,
-                   executor_);
-  return picture_ = files.picture(result_.best.derivation, setup_.scene.output.picture);
+  ModelFiles files(setup_.graph(), setup_.meshes, setup_.textures, setup_.targets,
+                   look_of(setup_.scene.output), executor_);
+  return picture_ = files.picture(result_.best.derivation);
 }
 
 void BestFiles::write_picture(const std::string& path) {

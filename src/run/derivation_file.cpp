@@ -122,7 +122,7 @@ ExportReport export_derivation(const ExportRequest& request, MeshSource& source,
       load_derivation(request.derivation, request.grammar, request.attributes);
   const MeshTable meshes = load_meshes(grammar, source);
   const std::vector<Mesh> no_ghosts;
-  ModelFiles files(*grammar.graph, meshes, load_textures(grammar), no_ghosts, {1200, 900}, executor);
+  ModelFiles files(*grammar.graph, meshes, load_textures(grammar), no_ghosts, {}, executor);
   const bool as_it_is = request.grammar.empty() && request.attributes.empty();
   files.write(derivation, request.out, made_from(request.derivation, as_it_is, grammar, derivation, request.out));
   return {adapted, files.model().truncated};

@@ -47,8 +47,9 @@ std::string explanation_json(const Explanation& e) {
 }
 
 std::string explanation_text(const Explanation& e) {
-  std::string text = e.rejected.empty() ? fmt::format("score {:.10g} of at most {:.10g}", e.score, e.optimum)
-                                        : "score rejected: " + e.rejected;
+  std::string text = "score ";
+  text += e.rejected.empty() ? fmt::format("{:.10g}", e.score) : "rejected: " + e.rejected;
+  if (e.rejected.empty() && e.optimum > 0) text += fmt::format(" of at most {:.10g}", e.optimum);
   if (e.percent) text += fmt::format(" ({:.1f} %)", *e.percent);
   const char* before_words = e.rejected.empty() ? ": " : "\n";
   text += e.words.empty() ? "\n" : before_words + e.words + "\n";

@@ -9,6 +9,7 @@
 #include "io/file.h"
 #include "io/png.h"
 #include "run/model_files.h"
+#include "run/output_look.h"
 #include "run/report.h"
 #include "run/report_text.h"
 #include "run/scene_scorer.h"
@@ -25,10 +26,11 @@ constexpr std::uint32_t kMostAcross = 480;
 constexpr int kSamples = 4;
 constexpr std::uint32_t kLeastAcross = 160;
 
-RenderSettings small_look(std::array<std::uint32_t, 2> size) {
-  const std::uint32_t longer = std::max({size[0], size[1], kMostAcross});
-  RenderSettings look;
-  look.width = std::max(1u, size[0] * kMostAcross / longer), look.height = std::max(1u, size[1] * kMostAcross / longer);
+RenderSettings small_look(const SceneOutput& output) {
+  RenderSettings look = look_of(output);
+  const std::uint32_t longer = std::max({look.width, look.height, kMostAcross});
+  look.width = std::max(1u, look.width * kMostAcross / longer);
+  look.height = std::max(1u, look.height * kMostAcross / longer);
   look.samples = kSamples;
   return look;
 }
@@ -58,7 +60,7 @@ class LiveReport::Painter {
         note_(std::move(note)),
         executor_(make_serial_executor()),
         scorer_(setup.graph(), setup.objective, *executor_),
-        look_(small_look(setup.scene.output.picture)),
+        look_(small_look(setup.scene.output)),
         expander_(setup.graph()) {}
 
   void paint(const Snapshot& snapshot) {

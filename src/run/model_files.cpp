@@ -21,19 +21,19 @@ std::string derivation_document(const GeneratorGraph& graph, const Derivation& d
 }
 
 ModelFiles::ModelFiles(const GeneratorGraph& graph, const MeshTable& meshes, const TextureTable& textures,
-                       const std::vector<Mesh>& ghosts, std::array<std::uint32_t, 2> picture, Executor& executor)
+                       const std::vector<Mesh>& ghosts, const RenderSettings& look, Executor& executor)
     : graph_(graph),
       meshes_(meshes),
       textures_(textures),
       ghosts_(ghosts),
-      picture_(picture),
+      look_(look),
       executor_(executor),
       expander_(graph) {}
 
 void ModelFiles::write(const Derivation& derivation, const std::string& path, const Provenance& provenance) {
   if (path.ends_with(".json")) return write_file(path, derivation_document(graph_, derivation, provenance));
   if (path.ends_with(".png")) {
-    const Picture drawn = picture(derivation, picture_);
+    const Picture drawn = picture(derivation);
     return write_png(path, drawn.width, drawn.height, drawn.rgb, provenance);
   }
   expander_.expand(derivation, ExpandTo::full, model_);
@@ -45,9 +45,11 @@ const Model& ModelFiles::model_of(const Derivation& derivation) {
   return model_;
 }
 
+Picture ModelFiles::picture(const Derivation& derivation) { return picture(derivation, {look_.width, look_.height}); }
+
 Picture ModelFiles::picture(const Derivation& derivation, std::array<std::uint32_t, 2> size) {
   expander_.expand(derivation, ExpandTo::full, model_);
-  RenderSettings settings;
+  RenderSettings settings = look_;
   settings.width = size[0], settings.height = size[1];
   return render(model_, meshes_, Surfaces(graph_, model_, textures_), ghosts_, settings, executor_);
 }

@@ -20,12 +20,13 @@ inline constexpr const char* kTruncated =
 
 class ModelFiles {
  public:
-  /// All must outlive it. `ghosts`: target meshes shown in pictures; `picture`: width and height.
+  /// All but `look` must outlive it. `ghosts`: target meshes shown in pictures; `look`: of pictures.
   ModelFiles(const GeneratorGraph& graph, const MeshTable& meshes, const TextureTable& textures,
-             const std::vector<Mesh>& ghosts, std::array<std::uint32_t, 2> picture, Executor& executor);
+             const std::vector<Mesh>& ghosts, const RenderSettings& look, Executor& executor);
 
   /// By the ending of `path`: .glb .obj .ply .stl with details, .png, .json (the derivation). Throws Error.
   void write(const Derivation& derivation, const std::string& path, const Provenance& provenance);
+  Picture picture(const Derivation& derivation);
   Picture picture(const Derivation& derivation, std::array<std::uint32_t, 2> size);
   /// With details; stays until the next call.
   const Model& model_of(const Derivation& derivation);
@@ -39,7 +40,7 @@ class ModelFiles {
   const MeshTable& meshes_;
   TextureTable textures_;
   const std::vector<Mesh>& ghosts_;
-  std::array<std::uint32_t, 2> picture_;
+  RenderSettings look_;
   Executor& executor_;
   Expander expander_;
   Model model_;

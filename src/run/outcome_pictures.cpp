@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 
 #include "base/check.h"
+#include "base/counted.h"
+#include "run/curve_view.h"
+#include "run/output_look.h"
 #include "run/silhouette_view.h"
 
 namespace espalier {
@@ -41,6 +44,16 @@ OutcomePicture volume_outcome(const VolumeTarget& target, const Model& model, co
           draw_voxels(marked, look.volume, look.volume_samples, executor), legend_of(marked, beyond)};
 }
 
+OutcomePicture curves_outcome(const Outcome& outcome, const OutcomeLook& look, Executor& executor) {
+  const CurveTarget& target = *outcome.setup.curves;
+  RenderSettings settings = look_of(outcome.setup.scene.output);
+  settings.width = look.view[0], settings.height = look.view[1], settings.samples = look.view_samples;
+  const MarkedCurves marked = mark_curves(target, outcome.model);
+  return {OutcomeKind::curves, fmt::format("curves, {}", counted(outcome.model.bones.size(), "bone")),
+          curve_view(outcome.setup, outcome.model, outcome.surfaces, settings, executor),
+          legend_of(marked, target.cost().settings())};
+}
+
 }  // namespace
 
 std::vector<std::string> outcome_names(const Setup& setup) {
@@ -50,6 +63,7 @@ std::vector<std::string> outcome_names(const Setup& setup) {
     names.push_back(name_of(setup, "silhouette", i));
   }
   if (setup.volume) names.emplace_back(kVolumeOverlayName);
+  if (setup.curves) names.emplace_back(kCurvesName);
   return names;
 }
 
@@ -57,6 +71,7 @@ OutcomePicture draw_outcome(const Outcome& outcome, const std::string& name, con
                             Executor& executor) {
   const Setup& setup = outcome.setup;
   if (setup.volume && name == kVolumeOverlayName) return volume_outcome(*setup.volume, outcome.model, look, executor);
+  if (setup.curves && name == kCurvesName) return curves_outcome(outcome, look, executor);
   for (std::size_t i = 0; i < setup.silhouettes.size(); ++i) {
     if (name == name_of(setup, "view", i)) return view_outcome(outcome, i, look, executor);
     if (name == name_of(setup, "silhouette", i))

@@ -1,6 +1,6 @@
 #pragma once
 // Outcome pictures: what a run's best does with its targets, drawn: per silhouette a view from its camera and an
-// overlay, and an overlay of the volume.
+// overlay, an overlay of the volume, and guiding curves over the model and its bones.
 
 #include <array>
 #include <cstdint>
@@ -20,7 +20,7 @@ struct Outcome {
   const Surfaces& surfaces;
 };
 
-enum class OutcomeKind : std::uint8_t { view, silhouette, volume };
+enum class OutcomeKind : std::uint8_t { view, silhouette, volume, curves };
 
 /// A picture of a run folder.
 struct OutcomePicture {
@@ -30,7 +30,8 @@ struct OutcomePicture {
   std::vector<LegendRow> legend;  // views have none
 };
 
-/// How large, in pixels across, and how fine. Views of scenes with more than kManySilhouettes have half of each side.
+/// How large, in pixels across, and how fine; `view` and `view_samples` hold for curves too. Views of scenes with more
+/// than kManySilhouettes have half of each side.
 struct OutcomeLook {
   std::array<std::uint32_t, 2> view = {1200, 900};
   int view_samples = RenderSettings().samples;
@@ -39,9 +40,10 @@ struct OutcomeLook {
 
 inline constexpr std::size_t kManySilhouettes = 8;
 inline constexpr const char* kVolumeOverlayName = "volume.png";
+inline constexpr const char* kCurvesName = "curves.png";
 
 /// Names of all that a scene's targets give, in the order of the scene: "view.png" and "silhouette.png", or of several
-/// silhouettes "view-01.png" and so on; "volume.png".
+/// silhouettes "view-01.png" and so on; "volume.png"; "curves.png".
 std::vector<std::string> outcome_names(const Setup& setup);
 
 /// `name` is one of outcome_names().

@@ -25,7 +25,7 @@ constexpr const char* kNeeded[] = {kCheckpointName, kRunMarker, FolderLock::kNam
 bool is_result(const std::string& name) {
   static const std::regex kResults(
       R"(best\.(derivation\.json|glb|obj|mtl)|best-texture-\d+\.[a-z]+|result\.json|convergence\.csv|diagnostics\.csv)"
-      R"(|(view|silhouette)(-\d+)?\.png|volume\.png|alternatives\.png|alternatives/\d+\.(derivation\.json|glb|png))"
+      R"(|(view|silhouette)(-\d+)?\.png|(volume|curves)\.png|alternatives\.png|alternatives/\d+\.(derivation\.json|glb|png))"
       R"(|(.*/)?\.espalier-\d+-\d+\.tmp)");
   return std::regex_match(name, kResults);
 }

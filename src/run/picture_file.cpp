@@ -35,7 +35,7 @@ Subject subject_of(const LoadedGrammar& grammar, const Derivation& derivation, P
   const bool truncated = model.truncated;
   if (view == PictureView::bones) {
     if (model.bones.empty()) throw Error(fmt::format("{}: makes no bones to show", grammar.path));
-    BoneModel bones = bone_model(
+    LineDrawing bones = bone_model(
         model, [&](std::uint32_t gene) { return std::size_t{graph.edges[derivation.genes[gene].edge].child}; });
     return {std::move(bones.model), std::move(bones.meshes), std::move(bones.surfaces), {}, truncated};
   }

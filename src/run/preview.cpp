@@ -6,6 +6,7 @@
 #include "base/counted.h"
 #include "base/version.h"
 #include "model/expand.h"
+#include "run/curve_marks.h"
 #include "run/explanation_json.h"
 #include "run/model_files.h"
 #include "run/overlays.h"
@@ -64,6 +65,16 @@ std::string volume_text(const Preview& preview) {
   return text;
 }
 
+std::string curves_text(const CurveTarget& target, double weight) {
+  const CurveSettings& settings = target.cost().settings();
+  std::string text;
+  for (std::uint32_t i = 0; i < settings.curves.size(); ++i)
+    text += fmt::format("{}\n  {}\n", curve_in_words(target, i), settings_in_words(settings.curves[i]));
+  for (const std::string& extra : extras_in_words(settings)) text += fmt::format("curves: {}\n", extra);
+  if (weight != 1) text += fmt::format("curves: weight {:g}\n", weight);
+  return text;
+}
+
 ordered_json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 ordered_json silhouette_json(const Preview& preview, std::size_t index) {
@@ -100,6 +111,32 @@ ordered_json volume_json(const Preview& preview) {
           {"max", vector_json(grid.max)},
           {"meshes", meshes},
           {"optimum", target.optimum()}};
+}
+
+ordered_json curves_json(const CurveTarget& target, double weight) {
+  const CurveSettings& settings = target.cost().settings();
+  ordered_json curves = ordered_json::array();
+  for (std::uint32_t i = 0; i < settings.curves.size(); ++i) {
+    const GuidingCurve& guide = settings.curves[i];
+    ordered_json points = ordered_json::array();
+    for (const Vec3& point : guide.curve.points) points.push_back(vector_json(point));
+    curves.push_back({{"points", points},
+                      {"length", length_to(guide.curve, 1)},
+                      {"segments", target.cost().segments(i)},
+                      {"distance", guide.distance},
+                      {"alignment", guide.alignment},
+                      {"offset", guide.offset},
+                      {"utilisation", guide.utilisation},
+                      {"thickness", guide.thickness}});
+  }
+  ordered_json density;
+  if (settings.density) {
+    const BoneDensity& d = *settings.density;
+    density = {{"min", vector_json(d.min)}, {"max", vector_json(d.max)}, {"cell", d.cell},
+               {"wanted", d.wanted},        {"cost", d.cost}};
+  }
+  return {{"kind", "curves"},  {"name", target.name()},   {"curves", curves},
+          {"blend", settings.blend}, {"density", density}, {"weight", weight}};
 }
 
 }  // namespace
@@ -163,10 +200,12 @@ std::string grid_in_words(const VoxelGrid& grid) {
 
 std::string preview_text(const Preview& preview) {
   const Setup& setup = *preview.setup;
-  std::string text = fmt::format("{}, seed {}: at best {:.6g}\n", setup.graph().name, setup.scene.seed,
-                                 setup.objective.optimum());
+  std::string text = fmt::format("{}, seed {}", setup.graph().name, setup.scene.seed);
+  if (setup.objective.optimum() > 0) text += fmt::format(": at best {:.6g}", setup.objective.optimum());
+  text += "\n";
   if (setup.volume) text += volume_text(preview);
   for (std::size_t i = 0; i < setup.silhouettes.size(); ++i) text += silhouette_text(preview, i);
+  if (setup.curves) text += curves_text(*setup.curves, setup.scene.curves.weight);
   for (std::size_t i = 0; i < preview.samples.size(); ++i) {
     const PreviewSample& sample = preview.samples[i];
     text += fmt::format("sample {}: {}, {}, score {}\n", i + 1, counted(sample.derivation.size(), "gene"),
@@ -181,6 +220,7 @@ std::string preview_json(const Preview& preview, const std::string& picture) {
   ordered_json targets = ordered_json::array(), samples = ordered_json::array();
   if (setup.volume) targets.push_back(volume_json(preview));
   for (std::size_t i = 0; i < setup.silhouettes.size(); ++i) targets.push_back(silhouette_json(preview, i));
+  if (setup.curves) targets.push_back(curves_json(*setup.curves, setup.scene.curves.weight));
   for (const PreviewSample& sample : preview.samples) {
     samples.push_back({{"genes", sample.derivation.size()},
                        {"parts", sample.model.instances.size()},

@@ -8,6 +8,8 @@
 #include "render/font.h"
 #include "render/overlay.h"
 #include "render/voxel_view.h"
+#include "run/curve_view.h"
+#include "run/output_look.h"
 #include "run/overlays.h"
 #include "run/preview.h"
 #include "run/silhouette_view.h"
@@ -71,11 +73,16 @@ Cell drawing_cell(const Preview& preview, std::size_t index) {
   return cell;
 }
 
+RenderSettings small_look(const Setup& setup) {
+  RenderSettings look = look_of(setup.scene.output);
+  look.width = kCell, look.height = kCell * 3 / 4;
+  return look;
+}
+
 /// The meshes asked for within the box of the grid.
 Picture meshes_in_grid(const Setup& setup, Executor& executor) {
   const VoxelGrid& grid = setup.volume->grid();
-  RenderSettings look;
-  look.width = kCell, look.height = kCell * 3 / 4;
+  RenderSettings look = small_look(setup);
   Bounds all{grid.min, grid.max};
   for (const Mesh& mesh : setup.targets) all.add(bounds(mesh));
   const auto corner = [](const Vec3& low, const Vec3& high, int k) {
@@ -111,19 +118,43 @@ Cell volume_cell(const Preview& preview, Executor& executor) {
   return cell;
 }
 
+Cell curves_cell(const Preview& preview, Executor& executor) {
+  const CurveTarget& target = *preview.setup->curves;
+  const std::vector<GuidingCurve>& curves = target.cost().settings().curves;
+  Cell cell{curve_view(*preview.setup, small_look(*preview.setup), executor), {}};
+  add_text(cell, counted(curves.size(), "curve"));
+  for (const std::string& extra : extras_in_words(target.cost().settings())) add_text(cell, extra);
+  for (std::uint32_t i = 0; i < curves.size(); ++i) {
+    add_text(cell, curve_in_words(target, i));
+    const bool last_alike = i + 1 == curves.size() || settings_in_words(curves[i]) != settings_in_words(curves[i + 1]);
+    if (last_alike) add_text(cell, settings_in_words(curves[i]), kFaintInk);
+  }
+  return cell;
+}
+
+/// What is wanted of the target at this place in the objective.
+Cell wanted_cell(const Preview& preview, std::size_t place, Executor& executor) {
+  const Setup& setup = *preview.setup;
+  if (setup.volume && place == 0) return volume_cell(preview, executor);
+  const std::size_t index = place - (setup.volume ? 1 : 0);
+  return index < setup.silhouettes.size() ? drawing_cell(preview, index) : curves_cell(preview, executor);
+}
+
+Picture sample_picture(const Setup& setup, std::size_t place, const Model& model, Executor& executor) {
+  if (setup.volume && place == 0)
+    return voxel_view(mark_voxels(*setup.volume, model.instances), kCell, kCell * 3 / 4, 2, executor);
+  const std::size_t index = place - (setup.volume ? 1 : 0);
+  if (index < setup.silhouettes.size())
+    return fit_marks(mark_silhouette(*setup.silhouettes[index], model.instances), kCell);
+  return curve_view(setup, model, setup.graph().materials, small_look(setup), executor);
+}
+
 /// One row: what is wanted, then the samples. `place`: of the target in its objective.
 std::vector<Cell> row_of(const Preview& preview, std::size_t place, Executor& executor) {
-  const Setup& setup = *preview.setup;
-  const bool is_volume = setup.volume && place == 0;
-  const std::size_t index = place - (setup.volume ? 1 : 0);
-  std::vector<Cell> row = {is_volume ? volume_cell(preview, executor) : drawing_cell(preview, index)};
+  std::vector<Cell> row = {wanted_cell(preview, place, executor)};
   for (const PreviewSample& sample : preview.samples) {
     Cell cell;
-    if (is_volume) {
-      cell.picture = voxel_view(mark_voxels(*setup.volume, sample.model.instances), kCell, kCell * 3 / 4, 2, executor);
-    } else {
-      cell.picture = fit_marks(mark_silhouette(*setup.silhouettes[index], sample.model.instances), kCell);
-    }
+    cell.picture = sample_picture(*preview.setup, place, sample.model, executor);
     const Explanation& told = sample.explanation.targets[place];
     add_text(cell, score_in_words(told));
     add_text(cell, told.words, kFaintInk);
@@ -178,18 +209,34 @@ void draw_lines(Picture& sheet, std::uint32_t x, std::uint32_t y, const std::vec
   }
 }
 
-/// What the colours of the samples mean, side by side.
-void draw_key(Picture& sheet, std::uint32_t x, std::uint32_t y, const Scene& scene) {
-  std::vector<std::pair<Colour, const char*>> key = {{colour_of(Mark::hit), "wanted and covered"},
-                                                     {colour_of(Mark::missed), "wanted, not covered"},
-                                                     {colour_of(Mark::spilled), "covered, to be left free"},
-                                                     {colour_of(Mark::covered), "covered, does not matter"}};
-  for (const SceneMesh& mesh : scene.volume.meshes) {
-    if (key.size() == 4 && mesh.fill < 0) key.emplace_back(colour_of(VoxelMark::struck), "covered, to be avoided");
+/// What the colours of the samples mean: a line for what is covered, one for curves.
+using Key = std::vector<std::vector<std::pair<Colour, const char*>>>;
+Key key_of(const Setup& setup) {
+  Key key;
+  if (setup.volume || !setup.silhouettes.empty())
+    key.push_back({{colour_of(Mark::hit), "wanted and covered"},
+                   {colour_of(Mark::missed), "wanted, not covered"},
+                   {colour_of(Mark::spilled), "covered, to be left free"},
+                   {colour_of(Mark::covered), "covered, does not matter"}});
+  for (const SceneMesh& mesh : setup.scene.volume.meshes) {
+    if (key[0].size() == 4 && mesh.fill < 0) key[0].emplace_back(colour_of(VoxelMark::struck), "covered, to be avoided");
   }
-  for (const auto& [colour, what] : key) {
-    draw_lines(sheet, x, y, {{{colour}, what, kInk}});
-    x += kCell + kGap;
+  if (setup.curves)
+    key.push_back({{colour_of(CurveMark::used), "curve that bones use"},
+                   {colour_of(CurveMark::unused), "curve that none uses"},
+                   {colour_of(CurveMark::follows), "bone that follows a curve"},
+                   {colour_of(CurveMark::strays), "bone that strays"}});
+  return key;
+}
+
+void draw_key(Picture& sheet, std::uint32_t y, const Key& key) {
+  for (const auto& line : key) {
+    std::uint32_t x = kGap;
+    for (const auto& [colour, what] : line) {
+      draw_lines(sheet, x, y, {{{colour}, what, kInk}});
+      x += kCell + kGap;
+    }
+    y += kLine;
   }
 }
 
@@ -212,25 +259,26 @@ void draw_row(Picture& sheet, std::uint32_t top, const std::vector<Cell>& row) {
 
 Picture preview_picture(const Preview& preview, Executor& executor) {
   const Setup& setup = *preview.setup;
-  const std::size_t targets = setup.silhouettes.size() + (setup.volume ? 1 : 0);
+  const std::size_t targets = setup.silhouettes.size() + (setup.volume ? 1 : 0) + (setup.curves ? 1 : 0);
   std::vector<std::vector<Cell>> rows = {heads(preview)};
   for (std::size_t i = 0; i < std::min(targets, kMostRows); ++i) rows.push_back(row_of(preview, i, executor));
   const std::uint32_t width = kGap + static_cast<std::uint32_t>(rows[0].size()) * (kCell + kGap);
   const std::vector<Line> last =
       foot(preview, rows.size() - 1, targets, (width - 2 * kGap) / (kCellWidth * kScale));
   const std::uint32_t title = kGap + kCellHeight * kTitleScale + kGap / 2;
-  std::uint32_t height = title + kLine + static_cast<std::uint32_t>(last.size()) * kLine + kGap;
+  const Key key = key_of(setup);
+  std::uint32_t height = title + static_cast<std::uint32_t>(key.size() + last.size()) * kLine + kGap;
   for (const auto& row : rows) height += height_of(row) + kGap;
 
   Picture sheet = blank(width, height, kPaper);
-  const std::string words = fmt::format("{}, seed {}: before any search. At best {:.6g}", setup.graph().name,
-                                        setup.scene.seed, setup.objective.optimum());
+  std::string words = fmt::format("{}, seed {}: before any search", setup.graph().name, setup.scene.seed);
+  if (setup.objective.optimum() > 0) words += fmt::format(". At best {:.6g}", setup.objective.optimum());
   draw_text(sheet, kGap, kGap, fit_text(words, (width - 2 * kGap) / (kCellWidth * kTitleScale)), kTitleScale,
             kInk.rgb);
   std::uint32_t y = title;
   for (const auto& row : rows) draw_row(sheet, y, row), y += height_of(row) + kGap;
-  draw_key(sheet, kGap, y, setup.scene);
-  draw_lines(sheet, kGap, y + kLine, last);
+  draw_key(sheet, y, key);
+  draw_lines(sheet, kGap, y + static_cast<std::uint32_t>(key.size()) * kLine, last);
   return sheet;
 }
 

@@ -16,8 +16,10 @@ std::string targets_of(const RunStart& start) {
 }
 
 std::string headline(const RunStart& start) {
-  return fmt::format("{} with {}, seed {}, {} thread{}{}, optimum {:.6g}", start.grammar, start.engine,
-                     start.seed, start.threads, start.threads == 1 ? "" : "s", targets_of(start), start.optimum);
+  std::string text = fmt::format("{} with {}, seed {}, {} thread{}{}", start.grammar, start.engine, start.seed,
+                                 start.threads, start.threads == 1 ? "" : "s", targets_of(start));
+  if (start.optimum > 0) text += fmt::format(", optimum {:.6g}", start.optimum);
+  return text;
 }
 
 std::string progress_line(const RunStart& start, const StepReport& report) {
@@ -121,7 +123,8 @@ std::unique_ptr<RunObserver> make_bar(std::ostream& out) { return std::make_uniq
 std::unique_ptr<RunObserver> make_lines(std::ostream& out) { return std::make_unique<Lines>(out); }
 
 std::string summary(const RunEnd& end) {
-  std::string text = fmt::format("score {:.6g} of at most {:.6g}", end.score, end.optimum);
+  std::string text = fmt::format("score {:.6g}", end.score);
+  if (end.optimum > 0) text += fmt::format(" of at most {:.6g}", end.optimum);
   if (end.percent) text += fmt::format(" ({:.1f} %)", *end.percent);
   if (!end.words.empty()) text += ": " + end.words;
   text += fmt::format("\n{} evaluations in {} steps and {:.1f} s ({:.0f} per second), ended by {}\n", end.evaluations,

@@ -50,8 +50,9 @@ std::string data_json(const ReportInput& input) {
   out += fmt::format("\"optimum\": {},\n", dump(input.result.explanation.optimum));
   out += fmt::format("{} {},\n", kTimesLine, dump(seconds));
   out += fmt::format("\"evaluations\": {},\n\"best\": {},\n\"mean\": {},\n", dump(evaluations), dump(best), dump(mean));
-  const std::array<std::uint32_t, 2> picture = input.setup.scene.output.picture;
-  out += fmt::format("\"picture\": [{}, {}],\n", picture[0], picture[1]);
+  const SceneOutput& output = input.setup.scene.output;
+  out += fmt::format("\"picture\": [{}, {}],\n", output.picture[0], output.picture[1]);
+  out += fmt::format("\"side\": [{}, {}],\n", output.azimuth_deg, output.elevation_deg);
   return out + fmt::format("\"model\": {}\n}}", json_for_script(input.model.header));
 }
 
@@ -59,9 +60,9 @@ std::string headline(const SearchResult& result) {
   const Explanation& e = result.explanation;
   std::string text;
   if (e.percent) text += fmt::format("<span class=\"percent\">{:.1f}&thinsp;%</span> ", *e.percent);
-  text += fmt::format("<span class=\"score\">score <b>{}</b> of at most {}</span>", readable_number(result.best.score),
-                      readable_number(e.optimum));
-  return text;
+  text += fmt::format("<span class=\"score\">score <b>{}</b>", readable_number(result.best.score));
+  if (e.optimum > 0) text += " of at most " + readable_number(e.optimum);
+  return text + "</span>";
 }
 
 std::string status(const ReportInput& input) {

@@ -126,9 +126,9 @@ std::string score_html(const Explanation& explanation) {
     for (const Term& term : target.terms) html += term_row(term, target.weight, largest);
     const double score = target.score * target.weight, best = target.optimum * target.weight;
     html += fmt::format(
-        "</tbody>\n<tfoot><tr><th scope=\"row\">together</th><td colspan=\"2\">of at most {}</td>"
+        "</tbody>\n<tfoot><tr><th scope=\"row\">together</th><td colspan=\"2\">{}</td>"
         "<td>{}</td><td>{}</td></tr></tfoot>\n</table>\n",
-        readable_number(best), readable_number(score),
+        best > 0 ? "of at most " + readable_number(best) : "", readable_number(score),
         target.percent ? fmt::format("{:.1f}&thinsp;%", *target.percent) : "");
   }
   return html;

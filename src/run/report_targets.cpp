@@ -1,14 +1,18 @@
 #include "run/report_targets.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "io/png.h"
 #include "render/render.h"
+#include "run/curve_view.h"
 
 namespace espalier {
 namespace {
+
+constexpr std::size_t kMostCurvesTold = 8;
 
 // "hull.obj (fill 1, spill -1)"
 std::string describe(const SceneMesh& mesh) {
@@ -41,11 +45,34 @@ ReportPicture silhouette_picture(const SilhouetteTarget& target) {
           encode_png(image.width, image.height, rgb, "Title", "espalier: target")};
 }
 
+ReportPicture curves_picture(const Setup& setup, const RenderSettings& look, Executor& executor) {
+  const CurveTarget& target = *setup.curves;
+  const CurveSettings& settings = target.cost().settings();
+  const Picture drawn = curve_view(setup, look, executor);
+  std::string caption;
+  for (std::uint32_t i = 0; i < std::min<std::size_t>(settings.curves.size(), kMostCurvesTold); ++i)
+    caption += curve_in_words(target, i) + ": " + settings_in_words(settings.curves[i]) + ". ";
+  if (settings.curves.size() > kMostCurvesTold)
+    caption += fmt::format("And {} more. ", settings.curves.size() - kMostCurvesTold);
+  for (const std::string& extra : extras_in_words(settings)) caption += extra + ". ";
+  return {settings.curves.size() == 1 ? "Guiding curve" : "Guiding curves", caption,
+          encode_png(drawn.width, drawn.height, drawn.rgb, "Title", "espalier: targets"),
+          legend_of(mark_curves(target, {}), settings)};
+}
+
+const char* title_of(OutcomeKind kind) {
+  switch (kind) {
+    case OutcomeKind::view: return "As the target sees it";
+    case OutcomeKind::curves: return "Curves and bones";
+    default: return "Hit and missed";
+  }
+}
+
 }  // namespace
 
 ReportPicture report_picture(const OutcomePicture& drawn) {
   const Picture& p = drawn.picture;
-  return {drawn.kind == OutcomeKind::view ? "As the target sees it" : "Hit and missed", drawn.caption,
+  return {title_of(drawn.kind), drawn.caption,
           encode_png(p.width, p.height, p.rgb, "Title", "espalier: outcome"), drawn.legend};
 }
 
@@ -60,6 +87,7 @@ std::vector<ReportPicture> target_pictures(const Setup& setup, const RenderSetti
   std::vector<ReportPicture> pictures;
   for (const SilhouetteTarget* target : setup.silhouettes) pictures.push_back(silhouette_picture(*target));
   if (!setup.targets.empty()) pictures.push_back(volume_picture(setup, look, executor));
+  if (setup.curves) pictures.push_back(curves_picture(setup, look, executor));
   return pictures;
 }
 

@@ -8,6 +8,7 @@
 #include "base/version.h"
 #include "io/file.h"
 #include "io/image.h"
+#include "run/output_look.h"
 #include "run/scene_toml.h"
 
 namespace espalier {
@@ -40,7 +41,7 @@ ResultWriter::ResultWriter(const Setup& setup, const SearchResult& result, Execu
       result_(result),
       executor_(executor),
       settings_(settings_text(setup)),
-      files_(setup.graph(), setup.meshes, setup.textures, setup.targets, setup.scene.output.picture, executor) {}
+      files_(setup.graph(), setup.meshes, setup.textures, setup.targets, look_of(setup.scene.output), executor) {}
 
 const Individual& ResultWriter::individual(std::size_t index) const {
   CHECK(index < size());
@@ -117,7 +118,7 @@ void ResultWriter::write_outcome(const std::string& name, const std::string& pat
 }
 
 const Picture& ResultWriter::best_picture() {
-  if (best_picture_.rgb.empty()) best_picture_ = files_.picture(result_.best.derivation, setup_.scene.output.picture);
+  if (best_picture_.rgb.empty()) best_picture_ = files_.picture(result_.best.derivation);
   return best_picture_;
 }
 

@@ -5,6 +5,7 @@
 
 #include "io/file.h"
 #include "io/png.h"
+#include "run/output_look.h"
 #include "run/report.h"
 #include "run/report_text.h"
 #include "run/results.h"
@@ -22,10 +23,10 @@ std::string small_png(const Picture& picture, std::uint32_t most, const char* ti
 }
 
 /// Of the size of pictures, halved until they are at most kMostAcross across.
-RenderSettings page_look(std::array<std::uint32_t, 2> size) {
-  while (std::max(size[0], size[1]) > kMostAcross) size = {std::max(1u, size[0] / 2), std::max(1u, size[1] / 2)};
-  RenderSettings look;
-  look.width = size[0], look.height = size[1];
+RenderSettings page_look(const SceneOutput& output) {
+  RenderSettings look = look_of(output);
+  while (std::max(look.width, look.height) > kMostAcross)
+    look.width = std::max(1u, look.width / 2), look.height = std::max(1u, look.height / 2);
   return look;
 }
 
@@ -38,7 +39,7 @@ void ResultWriter::write_report(const std::string& path) {
   input.best = {"Best", fmt::format("{} gene{}: {}", genes, genes == 1 ? "" : "s",
                                     genes_in_words(setup_.graph(), result_.best.derivation)),
                 small_png(best_picture(), kMostAcross, "espalier: best")};
-  input.targets = target_pictures(setup_, page_look(setup_.scene.output.picture), executor_);
+  input.targets = target_pictures(setup_, page_look(setup_.scene.output), executor_);
   for (const std::string& name : outcome_names(setup_)) {
     OutcomePicture drawn = outcome(name);
     drawn.picture = shrunk(drawn.picture, kMostAcross);

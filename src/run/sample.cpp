@@ -73,7 +73,9 @@ SampleSet::SampleSet(const SampleRequest& request, MeshSource& source, Executor&
   request_.grammar = inputs_.grammar_name();
   settings_ = fmt::format("# Samples drawn by Espalier {}.\n{}", kVersion, to_toml(request_));
   draw();
-  files_.emplace(*grammar_.graph, meshes_, load_textures(grammar_), no_ghosts_, request_.picture, executor);
+  RenderSettings look;
+  look.width = request_.picture[0], look.height = request_.picture[1];
+  files_.emplace(*grammar_.graph, meshes_, load_textures(grammar_), no_ghosts_, look, executor);
 }
 
 Derivation SampleSet::draw_one(RandomStream& random) {

@@ -133,6 +133,7 @@ struct SceneOutput {
   std::uint32_t keep = 8;       // alternatives beside the best
   double distance = 0.2;        // least distance of any two kept (run/diversity.h)
   std::array<std::uint32_t, 2> picture = {1200, 900};
+  double azimuth_deg = 35, elevation_deg = 22;  // from which side pictures show the model; 0, 0: from +z
 
   bool operator==(const SceneOutput&) const = default;
 };

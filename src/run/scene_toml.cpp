@@ -96,6 +96,8 @@ void read_output(const TomlValue& table, const std::string& file, Scene& scene) 
   if (const auto size = s.wholes("picture", 2, 16, 8192)) {
     output.picture = {static_cast<std::uint32_t>((*size)[0]), static_cast<std::uint32_t>((*size)[1])};
   }
+  take(output.azimuth_deg, s.number("azimuth_deg", -360, 360));
+  take(output.elevation_deg, s.number("elevation_deg", -90, 90));
   s.finish();
 }
 

@@ -64,8 +64,9 @@ std::string to_toml(const Scene& scene) {
   for (const SceneSilhouette& silhouette : scene.silhouettes) w.line("\n{}", silhouette_to_toml(silhouette));
   w.line("\n{}", curves_to_toml(scene.curves));
   if (!scene.start.derivation.empty()) w.line("\n{}", start_to_toml(scene.start));
-  w.line("\n[output]\nkeep = {}\ndistance = {}\npicture = [{}, {}]", scene.output.keep,
-         format_toml(scene.output.distance), scene.output.picture[0], scene.output.picture[1]);
+  w.line("\n[output]\nkeep = {}\ndistance = {}\npicture = [{}, {}]\nazimuth_deg = {}\nelevation_deg = {}",
+         scene.output.keep, format_toml(scene.output.distance), scene.output.picture[0], scene.output.picture[1],
+         format_toml(scene.output.azimuth_deg), format_toml(scene.output.elevation_deg));
   return w.take();
 }
 

@@ -115,7 +115,10 @@ std::size_t Objective::session_bytes() const {
 
 double Objective::optimum() const {
   double sum = 0;
-  for (const Entry& entry : targets_) sum += entry.weight * entry.target->optimum();
+  for (const Entry& entry : targets_) {
+    if (entry.weight > 0 && !entry.target->bounded()) return 0;
+    sum += entry.weight * entry.target->optimum();
+  }
   return sum;
 }
 

@@ -60,6 +60,7 @@ class Objective {
   double score(const Derivation& derivation, const Model& model, Scratch& scratch, Session& session) const;
   /// The most memory that the targets' parts of one session take, in bytes; 0: sessions are of no use.
   std::size_t session_bytes() const;
+  /// 0 where no bound is known for a target of some weight.
   double optimum() const;
   Explanation explain(const Derivation& derivation, const Model& model, Scratch& scratch) const;
   /// What score() rejected with this scratch, by hard bound; the same entries for every scratch.

@@ -21,6 +21,7 @@ class CurveTarget final : public Target {
   double score(const Derivation& derivation, const Model& model, TargetScratch* scratch) const override;
   /// 0: how many bones a grammar can make is not known, nor what they are worth. No share of it is told.
   double optimum() const override { return 0; }
+  bool bounded() const override { return false; }
   Explanation explain(const Derivation& derivation, const Model& model, TargetScratch* scratch) const override;
 
  private:

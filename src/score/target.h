@@ -89,6 +89,8 @@ class Target {
   virtual double score(const Derivation& derivation, const Model& model, TargetScratch* scratch) const = 0;
   /// The best score that any model could have (it need not be reachable).
   virtual double optimum() const = 0;
+  /// False where no bound on scores is known; optimum() is 0 then.
+  virtual bool bounded() const { return true; }
   virtual Explanation explain(const Derivation& derivation, const Model& model, TargetScratch* scratch) const = 0;
   /// What `score` rejected with this scratch: one entry per hard bound, always the same ones.
   virtual std::vector<Rejections> rejections(const TargetScratch*) const { return {}; }

@@ -2,7 +2,8 @@
 "use strict";
 (() => {
   const kTan = 0.24, kMargin = 0.07;  // of the angle of view and the free border: those of best.png
-  const kHome = {azimuth: 35, elevation: 22, zoom: 1, aside: 0, up: 0};
+  const [azimuth, elevation] = page.data.side;  // as in best.png
+  const kHome = {azimuth, elevation: Math.max(-30, Math.min(89, elevation)), zoom: 1, aside: 0, up: 0};
   const holder = page.byId("viewer"), canvas = page.byId("view"), hint = page.byId("view-hint");
 
   const fallback = (reason) => {
