@@ -235,7 +235,7 @@ TEST(GroundShade, HidesNothingOutside) {
 TEST(BoneModel, ReachesFromJointToJoint) {
   Model model;
   model.bones = {{{0, 0, 0}, {0, 2, 0}, -1, 0}, {{0, 2, 0}, {3, 2, 0}, 0, 1}, {{3, 2, 0}, {3, 2, 0}, 1, 2}};
-  const BoneModel bones = bone_model(model, [](std::uint32_t gene) { return std::size_t{gene}; });
+  const LineDrawing bones = bone_model(model, [](std::uint32_t gene) { return std::size_t{gene}; });
   ASSERT_EQ(bones.model.instances.size(), 4u) << "none for the bone without length";
   const Bounds box = bounds(bones.model, bones.meshes, true);
   EXPECT_NEAR(box.min.y, 0, 1e-5);
