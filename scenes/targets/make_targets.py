@@ -164,6 +164,14 @@ def tube():
     write_obj("tube.obj", "an upright tube, to be kept clear of", vertices, quads)
 
 
+def ball():
+    """What a tree grows around: a ball of 1 m around the origin."""
+    sides = 16
+    profile = [(math.sin(math.pi * i / sides), -math.cos(math.pi * i / sides)) for i in range(sides + 1)]
+    vertices, quads = turned(profile, 2 * sides)
+    write_obj("ball.obj", "A ball to grow around.", vertices, quads)
+
+
 def castle(name, n):
     """A castle on n x n lots of 2.2 m: four towers, walls between them, a court and a keep. Columns of cubes, and of their
     faces those between inside and outside."""
@@ -210,6 +218,7 @@ if __name__ == "__main__":
     ship()
     citadel()
     crown()
+    ball()
     canopy()
     tube()
     castle("castle.obj", 8)
