@@ -8,7 +8,9 @@
 namespace espalier {
 
 /// What a stream is for; streams of different purposes never meet.
-enum class Purpose : std::uint8_t { sample = 1, initial, select, vary, resample, propose, swap, probe, test, close };
+enum class Purpose : std::uint8_t {
+  sample = 1, initial, select, vary, resample, propose, swap, probe, test, close, points
+};
 
 /// Names one stream: 64-bit seed, purpose, and up to three coordinates. `lane` (24 bits) is the engine or island,
 /// `individual` and `generation` are 32 bits each.

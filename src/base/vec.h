@@ -9,6 +9,7 @@ namespace espalier {
 
 using Vec2 = glm::vec2;
 using Vec3 = glm::vec3;
+using DVec3 = glm::dvec3;
 using Mat3 = glm::mat3;  // column-major: m[c] is column c
 
 /// An affine map p -> basis * p + origin. `world_from_shape` names read right to left.

@@ -79,4 +79,27 @@ void declare_sweep(CLI::App& app, SweepOptions& o, std::function<int()>& chosen)
   });
 }
 
+void declare_similarity(CLI::App& app, SimilarityOptions& o, std::function<int()>& chosen) {
+  CLI::App* verb = app.add_subcommand("similarity", "Say how far apart the shapes of models are");
+  verb->add_option("models", o.models, "Two or more: .derivation.json, folders of runs (their best), pictures made of "
+                                       "derivations, or mesh files")
+      ->required();
+  verb->add_option("--grammar", o.grammar, "Grammar of derivations, if it is not in a run's folder");
+  declare_attributes(verb, o.attributes);
+  verb->add_option("--pairs", o.pairs, "Pairs of points per voxel; more make less noise (30)");
+  verb->add_option("--grid", o.grid, "Voxels along each axis, 1 to 16 (4)");
+  verb->add_option("--bins", o.bins, "Bins of a histogram, 2 to 100 (10)");
+  verb->add_option("--range", o.range, "Where the bins end, metres; published: 1.5 (the diagonal of a voxel)");
+  verb->add_option("--box", o.box, "own: each model in its own box; shared: all in one, place and size count (own)");
+  verb->add_option("--over", o.over, "Matrices are of all voxels, or of those occupied by either of the two (all)");
+  verb->add_option("--seed", o.seed, "Seed (1)")->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
+  verb->add_option("--csv", o.csv, "File to write: the matrix of medians");
+  declare_threads(verb, o.threads);
+  verb->add_flag("--json", o.json, "As JSON");
+  verb->callback([verb, &o, &chosen] {
+    refuse_empty_values(verb);
+    chosen = [&o] { return similarity_verb(o); };
+  });
+}
+
 }  // namespace espalier

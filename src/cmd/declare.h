@@ -1,5 +1,5 @@
 #pragma once
-// Options that several verbs have, and the verbs of contests, declared for the parser.
+// Options that several verbs have, and the verbs that compare, declared for the parser.
 
 #include <functional>
 #include <string>
@@ -24,5 +24,6 @@ void refuse_empty_values(const CLI::App* verb);
 /// `chosen` becomes the call of the verb when it is asked for. All must outlive the parsing.
 void declare_compare(CLI::App& app, CompareOptions& options, std::function<int()>& chosen);
 void declare_sweep(CLI::App& app, SweepOptions& options, std::function<int()>& chosen);
+void declare_similarity(CLI::App& app, SimilarityOptions& options, std::function<int()>& chosen);
 
 }  // namespace espalier

@@ -31,6 +31,7 @@ constexpr const char* kExamples = R"(Examples:
   espalier reproduce out/ship/best.glb
   espalier export out/ship/best.derivation.json -o ship.stl
   espalier render out/ship -o ship.png --size 1600x1200
+  espalier similarity out/ship out/ship/alternatives/01.glb --pairs 1000
   espalier graph grammars/spaceship.esp -o spaceship.svg
   espalier explain grammars/spaceship.esp
 
@@ -51,6 +52,7 @@ struct CommandLine {
   ReproduceOptions reproduce;
   ExportVerbOptions export_;
   RenderOptions render;
+  SimilarityOptions similarity;
   GraphOptions graph;
   ExplainOptions explain;
   std::function<int()> verb;
@@ -251,6 +253,7 @@ int main_verb(int argc, char** argv) {
   declare_score(app, line);
   declare_file_verbs(app, line);
   declare_render(app, line);
+  declare_similarity(app, line.similarity, line.verb);
   declare_graph(app, line);
   declare_explain(app, line);
   try {

@@ -128,6 +128,19 @@ struct RenderOptions {
   int threads = 0;
 };
 
+struct SimilarityOptions {
+  std::vector<std::string> models;
+  std::string grammar;
+  std::vector<std::string> attributes;
+  std::uint32_t grid = 4, pairs = 30, bins = 10;
+  std::optional<double> range;              // metres
+  std::string box = "own", over = "all";
+  std::uint64_t seed = 1;
+  std::string csv;                          // file to write; empty: none
+  int threads = 0;
+  bool json = false;
+};
+
 struct GraphOptions {
   std::string file;                     // a grammar, or a .derivation.json
   std::string grammar;                  // of a derivation; empty: the copy in its run's folder

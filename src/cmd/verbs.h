@@ -23,6 +23,7 @@ int inspect_verb(const InspectOptions& options);
 int reproduce_verb(const ReproduceOptions& options);
 int export_verb(const ExportVerbOptions& options);
 int render_verb(const RenderOptions& options);
+int similarity_verb(const SimilarityOptions& options);
 int graph_verb(const GraphOptions& options);
 int explain_verb(const ExplainOptions& options);
 

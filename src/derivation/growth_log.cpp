@@ -78,7 +78,12 @@ GrowingDerivation restore(const GeneratorGraph& graph, const GrowthLog& log, Gro
       pool.leave_empty(growing, bud);
       continue;
     }
-    require(bud == kNoShoot || pool.bud(bud).edge == entry.edge, "a gene must be of its slot's rule");
+    if (bud != kNoShoot) {
+      const GrowthPool::Bud& slot = pool.bud(bud);
+      require(slot.edge == entry.edge, "a gene must be of its slot's rule");
+      require(fill_probability(graph.edges[slot.edge], pool.counts_above(slot.shoot)) > 0,
+              "a slot that is filled with probability 0 must not be");
+    }
     const Rule& rule = graph.rule_of(entry.edge);
     require(entry.variant < rule.variants.size(), "a variant must be one of its rule's");
     const Variant& variant = rule.variants[entry.variant];
@@ -86,12 +91,22 @@ GrowingDerivation restore(const GeneratorGraph& graph, const GrowthLog& log, Gro
     require(growing.ledger.add(graph.edges[entry.edge].child), "a rule must keep its limit");
     shoots.back() = pool.append_gene(growing, bud, entry.edge, entry.variant,
                                      std::span(log.draws).subspan(draw, variant.draws.size()));
+    require(variant_probability(variant, pool.counts_above(shoots.back())) > 0,
+            "a variant must not have probability 0");
     draw += variant.draws.size();
     decided.back().resize(variant.slots.size());
   }
   require(draw == log.draws.size(), "there must be no more draws than genes need");
   growing.open.clear();
   for (const GrowthLog::Place& place : log.open) growing.open.push_back(bud_of(place.entry, place.slot));
+  for (std::size_t entry = 0; entry < shoots.size(); ++entry) {
+    for (std::uint32_t slot = 0; slot < decided[entry].size(); ++slot) {
+      const GrowthPool::Bud& bud = pool.bud(pool.shoot(shoots[entry]).first_bud + slot);
+      // Required ones may have been found to have no room.
+      require(decided[entry][slot] || bud.absent || graph.edges[bud.edge].required,
+              "an optional slot must be decided or open");
+    }
+  }
   return growing;
 }
 

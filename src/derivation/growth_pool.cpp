@@ -171,7 +171,7 @@ ShootId GrowthPool::decide(GrowingDerivation& growing, RandomStream& random) {
   const Edge& edge = graph_.edges[bud.edge];
   const bool room = growing.ledger.has_room(edge.child);
   const bool wanted = edge.required || random.chance(fill_probability(edge, counts_above(bud.shoot)));
-  if (!wanted || (!room && !edge.required)) {
+  if (!wanted) {
     leave_empty(growing, id);
     return kNoShoot;
   }
@@ -180,7 +180,10 @@ ShootId GrowthPool::decide(GrowingDerivation& growing, RandomStream& random) {
   above_.assign(above.of_rule.begin(), above.of_rule.end());  // `append` needs the other array
   const DepthCounts kept{above.depth, above_};
   const std::optional<std::uint16_t> picked = room ? pick_variant(rule, kept, random) : std::nullopt;
-  if (!picked) return kNoShoot;  // it stays open, and is asked no more
+  if (!picked) {
+    if (!edge.required) leave_empty(growing, id);
+    return kNoShoot;  // what is required stays open, and is asked no more
+  }
   growing.ledger.add(edge.child);
   const std::size_t first_draw = draws_.size();
   append_draws(rule.variants[*picked], random, draws_);
@@ -301,40 +304,51 @@ void GrowthPool::keep_only(std::span<GrowingDerivation* const> living, GrowthRen
       renumbering.shoots[id] = 0;
     }
   }
+  // Both are numbered anew in their old order, so that everything only moves down: copies are behind what they are
+  // copies of, but their buds are before those of others.
+  ShootId shoots = 0;
+  for (ShootId id = 0; id < shoots_.size(); ++id) {
+    if (renumbering.shoots[id] == kNoShoot) continue;
+    const Shoot& shoot = shoots_[id];
+    const std::size_t slots = shoot.filled ? variant_of(shoot).slots.size() : 0;
+    for (std::size_t bud = shoot.first_bud; bud < shoot.first_bud + slots; ++bud) {
+      if (renumbering.buds[bud] != kNoShoot) continue;  // the first of its copies that stays has it
+      renumbering.buds[bud] = 0;
+      buds_[bud].shoot = shoots;
+    }
+    renumbering.shoots[id] = shoots++;
+  }
+  std::vector<BudId> buds_before;  // that stay
+  BudId buds = 0;
+  for (BudId bud = 0; bud < buds_.size(); ++bud) {
+    buds_before.push_back(buds);
+    if (renumbering.buds[bud] == kNoShoot) continue;
+    renumbering.buds[bud] = buds;
+    buds_[buds++] = buds_[bud];
+  }
+  buds_before.push_back(buds);
   std::vector<std::uint32_t> new_draws;
-  std::size_t shoots = 0, buds = 0;
   for (ShootId id = 0; id < shoots_.size(); ++id) {
     if (renumbering.shoots[id] == kNoShoot) continue;
     Shoot shoot = shoots_[id];
-    const auto renumbered = [&](ShootId old) { return old == kNoShoot ? kNoShoot : renumbering.shoots[old]; };
-    renumbering.shoots[id] = static_cast<ShootId>(shoots);
-    shoot.previous = renumbered(shoot.previous);
+    if (shoot.previous != kNoShoot) shoot.previous = renumbering.shoots[shoot.previous];
     if (shoot.bud != kNoShoot) shoot.bud = renumbering.buds[shoot.bud];
     if (shoot.filled) {
-      const Variant& variant = variant_of(shoot);
-      const std::size_t slots = variant.slots.size();
-      if (slots > 0 && renumbering.buds[shoot.first_bud] == kNoShoot) {
-        // The first of its copies that stays. Buds only move down.
-        for (std::size_t k = 0; k < slots; ++k) {
-          renumbering.buds[shoot.first_bud + k] = static_cast<BudId>(buds);
-          buds_[buds] = buds_[shoot.first_bud + k];
-          buds_[buds++].shoot = renumbering.shoots[id];
-        }
-      }
-      shoot.first_bud = slots > 0 ? renumbering.buds[shoot.first_bud] : static_cast<BudId>(buds);
       const auto first = draws_.begin() + shoot.first_draw;
+      shoot.first_bud = buds_before[shoot.first_bud];
       shoot.first_draw = static_cast<std::uint32_t>(new_draws.size());
-      new_draws.insert(new_draws.end(), first, first + static_cast<std::ptrdiff_t>(variant.draws.size()));
+      new_draws.insert(new_draws.end(), first, first + static_cast<std::ptrdiff_t>(variant_of(shoot).draws.size()));
     }
-    depths_[shoots] = depths_[id];
-    std::copy_n(counts_.begin() + id * counted_, counted_, counts_.begin() + shoots * counted_);
-    shoots_[shoots++] = shoot;
+    const ShootId place = renumbering.shoots[id];
+    depths_[place] = depths_[id];
+    std::copy_n(counts_.begin() + id * counted_, counted_, counts_.begin() + place * counted_);
+    shoots_[place] = shoot;
   }
   shoots_.resize(shoots);
   buds_.resize(buds);
   draws_.swap(new_draws);
   depths_.resize(shoots);
-  counts_.resize(shoots * counted_);
+  counts_.resize(std::size_t{shoots} * counted_);
   for (GrowingDerivation* growing : living) {
     growing->last = growing->last == kNoShoot ? kNoShoot : renumbering.shoots[growing->last];
     for (BudId& bud : growing->open) bud = renumbering.buds[bud];

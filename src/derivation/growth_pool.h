@@ -84,7 +84,7 @@ class GrowthPool {
   /// as it is there. Nothing is grown beyond `most_genes`: then it is finished.
   template <class Visit>
   GrowthStep grow(GrowingDerivation& growing, RandomStream& random, std::uint32_t most_genes, const Visit& visit) {
-    if (growing.open.empty() || growing.genes >= most_genes) return GrowthStep::finished;
+    const ShootId before = growing.last;
     for (std::uint32_t fresh = 0; fresh < kMostFresh && !growing.open.empty() && growing.genes < most_genes;) {
       const ShootId shoot = decide(growing, random);
       if (shoot == kNoShoot) continue;
@@ -92,7 +92,7 @@ class GrowthPool {
       visit(shoot);
       if (makes_something(shoots_[shoot])) break;
     }
-    return GrowthStep::grown;
+    return growing.last == before ? GrowthStep::finished : GrowthStep::grown;
   }
 
   /// The derivation, depth first. What is open stays open.
@@ -116,7 +116,7 @@ class GrowthPool {
   ShootId append_gene(GrowingDerivation& growing, BudId bud, EdgeId edge, std::uint16_t variant,
                       std::span<const std::uint32_t> draws);
 
-  /// Forgets what none of these holds, and renumbers the rest.
+  /// Forgets what none of these holds, and renumbers the rest, which keeps its order.
   void keep_only(std::span<GrowingDerivation* const> living, GrowthRenumbering& renumbering);
 
  private:

@@ -49,13 +49,15 @@ void find_open_slots(const GeneratorGraph& graph, const Derivation& derivation, 
   }
 }
 
-/// The slot to decide next. Depth-first growth has decided all slots before that of the gene where it stands, which is
-/// the last one with an open slot.
-const OpenSlot& pick_slot(const std::vector<OpenSlot>& open, SlotOrder order, RandomStream& random) {
-  if (order == SlotOrder::random) return open[random.below(static_cast<std::uint32_t>(open.size()))];
+/// Takes out the slot to decide next. Depth-first growth has decided all slots before that of the gene where it stands,
+/// which is the last one with an open slot.
+OpenSlot take_slot(std::vector<OpenSlot>& open, SlotOrder order, RandomStream& random) {
   std::size_t i = open.size() - 1;
-  while (i > 0 && open[i - 1].gene == open.back().gene) --i;
-  return open[i];
+  if (order == SlotOrder::random) i = random.below(static_cast<std::uint32_t>(open.size()));
+  else while (i > 0 && open[i - 1].gene == open.back().gene) --i;
+  const OpenSlot taken = open[i];
+  open.erase(open.begin() + static_cast<std::ptrdiff_t>(i));
+  return taken;
 }
 
 enum class Decision : std::uint8_t {
@@ -75,14 +77,16 @@ Decision decide(const GeneratorGraph& graph, const OpenSlot& open, bool strict, 
   const Edge& way = graph.edges[edge];
   const std::size_t slot = path.gene.slot + open.slot;
   const bool fill = way.required || random.chance(fill_probability(way, path.above.counts()));
-  if (!fill || (!strict && !way.required && !ledger.has_room(way.child))) {
+  if (!fill) {
     derivation.slots[slot] = SlotState::empty;
     return Decision::empty;
   }
   Derivation gene;
   path.above.enter(rule);
   if (!ledger.has_room(way.child) || !append_seedling(graph, edge, path.above, random, gene)) {
-    return Decision::forbidden;
+    if (strict || way.required) return Decision::forbidden;
+    derivation.slots[slot] = SlotState::empty;
+    return Decision::empty;
   }
   ledger.add(way.child);
   const GenePosition place = child_in_slot(graph, derivation, path.gene, open.slot);
@@ -183,9 +187,11 @@ GrowthStep grow_open_slot(const GeneratorGraph& graph, Derivation& derivation, R
   const std::size_t most_genes = derivation.size() + kMostNew;
   while (derivation.size() < most_genes) {
     find_open_slots(graph, derivation, ledger, strict, open);
-    if (open.empty()) break;
-    const Decision decision = decide(graph, pick_slot(open, order, random), strict, ledger, random, derivation);
-    if (decision == Decision::forbidden && strict) return GrowthStep::stuck;
+    Decision decision = Decision::forbidden;
+    while (decision == Decision::forbidden && !open.empty()) {
+      decision = decide(graph, take_slot(open, order, random), strict, ledger, random, derivation);
+      if (decision == Decision::forbidden && strict) return GrowthStep::stuck;
+    }
     if (decision == Decision::forbidden) break;
     decided = true;
     if (decision == Decision::made) break;

@@ -1,6 +1,8 @@
 #pragma once
 // GeneExpander: the skeleton of derivations that grow in a pool, gene by gene. A gene is run once, when it is new; where
-// and with which arguments its children would stand is kept with its buds, for all derivations that share it.
+// and with which arguments its children would stand is kept with its buds, for all derivations that share it. The bones
+// are those of Expander, bit for bit, up to 10 000 copies of one gene: of more (mirrors within mirrors) the rest is left
+// out here.
 
 #include <cstdint>
 #include <memory>

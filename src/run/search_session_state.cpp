@@ -22,11 +22,13 @@ void write_archive(StateWriter& writer, const DiverseArchive& archive) {
   for (const Individual& member : archive.members()) write_individual(writer, member);
 }
 
-std::vector<Individual> read_archive(StateReader& reader, const Setup& setup, std::size_t most) {
+/// `open`: they may have open slots, as a matter of course.
+std::vector<Individual> read_archive(StateReader& reader, const Setup& setup, std::size_t most, bool open) {
   std::vector<Individual> members(reader.u64_at_most(most, "alternatives"));
   double least = std::numeric_limits<double>::infinity();
   for (Individual& member : members) {
-    member = read_finished_individual(reader, setup.graph(), setup.scene.search.ga.genes);
+    member = open ? read_individual(reader, setup.graph())
+                  : read_finished_individual(reader, setup.graph(), setup.scene.search.ga.genes);
     if (member.score > least) throw Error("saved state: the alternatives are out of order");
     least = member.score;
   }
@@ -90,7 +92,7 @@ void SearchSession::load(std::istream& in) {
   const double seconds = reader.f64();
   if (!std::isfinite(seconds) || seconds < 0) throw Error("saved state: seconds must be a number from 0");
   log_.load(reader);
-  archive_.restore(read_archive(reader, setup_, archive_.capacity()));
+  archive_.restore(read_archive(reader, setup_, archive_.capacity(), engine_->leaves_open()));
   scorer_.count_in(read_rejections(reader, scorer_.rejections()));
   engine_->load(in);
   if (in.peek() != std::istream::traits_type::eof()) throw Error("saved state: more follows after its end");

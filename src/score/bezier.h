@@ -3,7 +3,6 @@
 
 #include <array>
 
-#include "base/dvec.h"
 #include "base/vec.h"
 
 namespace espalier {

@@ -71,6 +71,7 @@ CurveCost::Ruler CurveCost::make_ruler(const GuidingCurve& guide, std::uint32_t 
     const float t = static_cast<float>(i) / Ruler::kGuesses;
     while (t >= ruler.begins[segment + 1]) ++segment;
     ruler.guess[i] = static_cast<std::uint16_t>(segment);
+    if (length > 0) ruler.behind[i] = static_cast<float>(length_to(guide.curve, t) / length);
   }
   for (std::size_t n = 0; n < ruler.worth.size(); ++n) {
     ruler.worth[n] = to_units(-guide.utilisation * natural_exp(-static_cast<double>(n)));
@@ -98,7 +99,10 @@ CurvePoint CurveCost::nearest(const Vec3& base) const { return field_ ? field_->
 float CurveCost::distance_beyond(const GuidingCurve& curve, const CurvePoint& base) const {
   const auto [first, last] = curve.thickness;
   if (first == 0 && last == 0) return base.distance;
-  const double along = (segment_at(base.curve, base.t) + 0.5) / rulers_[base.curve].segments;
+  const std::array<float, Ruler::kGuesses + 1>& behind = rulers_[base.curve].behind;
+  const float at = base.t * Ruler::kGuesses;
+  const std::size_t i = std::min(static_cast<std::size_t>(at), Ruler::kGuesses - 1);
+  const double along = behind[i] + (at - static_cast<float>(i)) * (behind[i + 1] - behind[i]);
   return std::max(0.0f, base.distance - static_cast<float>(first + (last - first) * along));
 }
 

@@ -72,6 +72,7 @@ class CurveCost {
     std::uint32_t segments = 1, first = 0;  // first: into CurveTally::uses
     std::vector<float> begins;              // segments + 1; the last is above 1
     std::array<std::uint16_t, kGuesses + 1> guess{};  // the segment at t = i / kGuesses
+    std::array<float, kGuesses + 1> behind{};         // share of the curve's length that lies behind, likewise
     std::array<std::int64_t, 256> worth{};  // cost of the use after so many
   };
 

@@ -1,8 +1,17 @@
 #pragma once
 // CurveField: distances, tangents and parameters of guiding curves on a grid, read by trilinear interpolation: an
 // approximation of CurveFinder, quicker by the number of curves. Within a cell of where the nearest curve changes,
-// distances are too small by up to half a cell's diagonal and tangents run into each other; elsewhere the error falls
-// with the square of the cell. Beyond the grid (a quarter of the curves' extent on every side) it asks the finder.
+// distances are too small by up to half a cell's diagonal and tangents run into each other; within a cell of a curve
+// distances are too large by as much. Elsewhere the error falls with the square of the cell. Blended tangents run into
+// each other where the second nearest curve changes, too. Beyond the grid (a quarter of the curves' extent on every
+// side) it asks the finder.
+//
+// Errors over sets of five random curves, not blended:   all places                   a cell or more from all that
+//                                      median  95 %  greatest                             median  95 %
+//   32 cells  distance, in cells       0.02    0.09  0.5                                  0.02    0.05
+//             tangent, in degrees      0.03    20    180                                  0.02    1
+//   64 cells  distance, in cells       0.01    0.05  0.6                                  0.01    0.03
+//             tangent, in degrees      0.02    8     180                                  0.01    0.2
 
 #include <array>
 #include <cstdint>

@@ -9,6 +9,7 @@
 
 #include "base/vec.h"
 #include "score/bezier.h"
+#include "score/curve_scan.h"
 
 namespace espalier {
 
@@ -21,7 +22,9 @@ struct CurvePoint {
 
 class CurveFinder {
  public:
-  /// At least one; finite. `blend`: tangents are those of the two nearest curves, blended by distance.
+  static constexpr std::size_t kMostCurves = 64;
+
+  /// 1 to kMostCurves; finite. `blend`: tangents are those of the two nearest curves, blended by distance.
   CurveFinder(const std::vector<CubicBezier>& curves, bool blend);
 
   std::size_t size() const { return curves_.size(); }
@@ -31,30 +34,12 @@ class CurveFinder {
   float parameter_on(std::uint32_t curve, const Vec3& p) const;
 
  private:
-  static constexpr std::size_t kChords = 16;
-  using Row = float __attribute__((vector_size(16)));
-  static constexpr std::size_t kRows = kChords / 4;
-
-  /// Chord i runs from t = i / kChords over 1 / kChords.
-  struct Prepared {
-    std::array<Row, kRows> from[3], along[3], per_length2;
-    std::array<Vec3, 4> power;  // coefficients of t^0 .. t^3
-    float gap = 0;              // no point is further from its chord, m
-    Vec3 centre{0};             // a ball around the curve
-    float radius = 0;
-  };
-  struct Hit {
-    float t = 0, distance2 = 0;
-  };
-
-  static Prepared prepare(const CubicBezier& curve);
-  static float bound(const Prepared& curve, const Vec3& p);
-  static Hit closest(const Prepared& curve, const Vec3& p);
-  static Hit refine(const Prepared& curve, const Vec3& p, float t);
-  static Vec3 tangent(const Prepared& curve, float t);
+  void prepare(const CubicBezier& curve);
+  Vec3 tangent(std::size_t curve, float t) const;
   Vec3 blended_tangent(const CurvePoint& nearest, const Vec3& p) const;
 
-  std::vector<Prepared> curves_;
+  std::vector<CurveTable> curves_;
+  std::vector<float> still_;  // per curve: a derivative no longer than that is rounding
   bool blend_;
 };
 

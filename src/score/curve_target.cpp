@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.h"
+
 namespace espalier {
 namespace {
 
@@ -36,7 +38,6 @@ Explanation CurveTarget::explain(const Derivation&, const Model& model, TargetSc
   Explanation e;
   e.name = name_;
   e.score = -in_cost(tally.total());
-  const auto bones = static_cast<double>(model.bones.size());
   for (std::size_t i = 0; i < kCurveTerms; ++i) {
     if (i == static_cast<std::size_t>(CurveTerm::density) && tally.crowd.empty()) continue;
     e.terms.push_back({kTermNames[i], -1, in_cost(tally.cost[i]), 0, -in_cost(tally.cost[i]), "cost"});
@@ -44,7 +45,7 @@ Explanation CurveTarget::explain(const Derivation&, const Model& model, TargetSc
   const auto used = static_cast<std::size_t>(
       std::count_if(tally.uses.begin(), tally.uses.end(), [](std::uint8_t uses) { return uses > 0; }));
   const double share = tally.uses.empty() ? 0 : 100.0 * static_cast<double>(used) / static_cast<double>(tally.uses.size());
-  e.words = fmt::format("{:.0f} bones, {:.0f} % of the curves used", bones, share);
+  e.words = fmt::format("{}, {:.0f} % of the curves used", counted(model.bones.size(), "bone"), share);
   return e;
 }
 

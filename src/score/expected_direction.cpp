@@ -1,6 +1,6 @@
 #include "score/expected_direction.h"
 
-#include "base/dvec.h"
+#include "base/vec.h"
 #include "derivation/growth_pool.h"
 #include "model/gene_expander.h"
 

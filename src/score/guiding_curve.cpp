@@ -39,7 +39,7 @@ void validate_curve(const GuidingCurve& curve, const std::string& name) {
 void validate_density(const BoneDensity& density) {
   require_point("density.min", density.min);
   require_point("density.max", density.max);
-  require(density.cell > 0, "density.cell must be above 0", density.cell);
+  require(density.cell > 0 && std::isfinite(density.cell), "density.cell must be above 0 and finite", density.cell);
   require_range("density.wanted", density.wanted, 0, 1e9);
   require_range("density.cost", density.cost, 0, 1e6);
   double cells = 1;

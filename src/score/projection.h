@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "base/dvec.h"
+#include "base/vec.h"
 
 namespace espalier {
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/check.h"
+#include "base/natural_log.h"
 #include "derivation/strip.h"
 #include "search/gauges.h"
 #include "search/packing_scorer.h"
@@ -30,9 +31,13 @@ GuidedEngine::~GuidedEngine() = default;
 
 const Individual& GuidedEngine::best() const {
   CHECK(steps_ > 0);
+  pack_best();
+  return best_individual_;
+}
+
+void GuidedEngine::pack_best() const {
   if (!best_packed_) best_individual_ = {pool_.pack(best_), best_score_};
   best_packed_ = true;
-  return best_individual_;
 }
 
 std::span<const Individual> GuidedEngine::population() const {
@@ -83,10 +88,11 @@ void GuidedEngine::step() {
 }
 
 void GuidedEngine::begin_sweep() {
-  if (has_best_) best();  // it is packed before the pool forgets it
+  if (has_best_) pack_best();  // before the pool forgets it
   best_pooled_ = false;
   seeded_ = true;
   sweep_step_ = 0;
+  log_mean_ = 0;
   sweep_length_ = settings_.steps;
   pool_.clear();
   const std::uint32_t particles = particles_at(0);
@@ -256,6 +262,7 @@ void GuidedEngine::resample_particles() {
     return end_sweep();
   }
   effective_ = effective_size(weights_);
+  log_mean_ += log_sum(log_weights_) - natural_log(static_cast<double>(log_weights_.size()));
   RandomStream random({problem_.seed, Purpose::resample, problem_.lane, 0, static_cast<std::uint32_t>(steps_)});
   resample(settings_.resampling, weights_, places, random, ancestors_);
   scratch_.resize(places);
@@ -278,6 +285,7 @@ void GuidedEngine::end_sweep() {
     return;
   }
   ++counts_.sweeps;
+  log_evidence_ = log_mean_ + log_sum(log_weights_) - natural_log(static_cast<double>(log_weights_.size()));
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     if (log_weights_[i] != kWeightless) order.push_back(i);

@@ -60,6 +60,9 @@ class GuidedEngine final : public Engine {
   bool sweep_is_over() const { return over_; }
   /// Of the particles, in order, not normalised; at the end of a sweep from the seed those of its population.
   std::span<const double> log_weights() const { return log_weights_; }
+  /// At the end of a sweep from the seed: log of an unbiased estimate of the integral of prior * exp(score /
+  /// temperature), where the grammar has no limits and all particles finished.
+  double log_evidence() const { return log_evidence_; }
 
  private:
   /// What else is known of a particle.
@@ -67,6 +70,7 @@ class GuidedEngine final : public Engine {
     double score = 0, promise = 0;
   };
 
+  void pack_best() const;
   void begin_sweep();
   void begin_round();
   void take_founders();
@@ -91,6 +95,7 @@ class GuidedEngine final : public Engine {
   std::uint64_t sweep_step_ = 0, sweep_length_ = 0;  // steps taken, and to take
   std::size_t tidy_at_ = 0;            // shoots in the pool
   double effective_ = 0, mean_score_ = 0;
+  double log_mean_ = 0, log_evidence_ = 0;  // product of the mean weights at the resamplings; see log_evidence()
   GuidedCounts counts_;
 
   std::vector<GrowingDerivation> particles_, scratch_;

@@ -10,9 +10,9 @@
 namespace espalier {
 
 struct GuidedSettings {
-  /// Particles of the first sweep's first step and of its last; linear between (Guiding curves 2018, section 3.4). What
-  /// fits 100 steps into 5600 particle-steps. 2..1000000, falling.
-  std::uint32_t particles = 97, last_particles = 15;
+  /// Particles of the first step of a sweep and of its last; linear between (Guiding curves 2018, section 3.4; the
+  /// numbers are those of its editor). 2..1000000, falling.
+  std::uint32_t particles = 100, last_particles = 15;
   std::uint32_t steps = 100;      // of growth: as many genes with bones (or parts) as a model gets, 1..100000
   double heuristic = 0.013;       // of the first step, >= 0; falls linearly to 0 ...
   std::uint32_t heuristic_steps = 40;  // ... at this step; 0: none at all

@@ -94,7 +94,7 @@ void GuidedEngine::save(std::ostream& out) const {
   for (const std::uint64_t value : {steps_, evaluations_, std::uint64_t{over_}, std::uint64_t{seeded_}, sweep_step_,
                                     sweep_length_, std::uint64_t{pinned_}, std::uint64_t{best_pooled_}})
     writer.u64(value);
-  for (const double value : {effective_, mean_score_, round_began_with_}) writer.f64(value);
+  for (const double value : {effective_, mean_score_, round_began_with_, log_mean_, log_evidence_}) writer.f64(value);
   for (const Entry& entry : kEntries) writer.u64(counts_.*entry.member);
   if (steps_ == 0) return;
   write_individual(writer, best());
@@ -119,7 +119,8 @@ void GuidedEngine::load(std::istream& in) {
   const std::uint64_t sweep_step = reader.u64(), sweep_length = reader.u64();
   const auto pinned = static_cast<std::uint32_t>(reader.u64_at_most(kMostEntries, "pinned shoots"));
   const bool pooled = reader.u64_at_most(1, "where the best is");
-  const double effective = reader.f64(), mean = reader.f64(), began = reader.f64();
+  const double effective = reader.f64(), mean = reader.f64(), began = reader.f64(), log_mean = reader.f64();
+  const double log_evidence = reader.f64();
   GuidedCounts counts;
   for (const Entry& entry : kEntries) counts.*entry.member = reader.u64();
   const GeneratorGraph& graph = *problem_.graph;
@@ -168,6 +169,7 @@ void GuidedEngine::load(std::istream& in) {
   steps_ = steps, evaluations_ = evaluations, over_ = over, seeded_ = seeded;
   sweep_step_ = sweep_step, sweep_length_ = sweep_length, pinned_ = pinned;
   effective_ = effective, mean_score_ = mean, round_began_with_ = began;
+  log_mean_ = log_mean, log_evidence_ = log_evidence;
   counts_ = counts;
   has_best_ = best_packed_ = steps > 0;
   best_pooled_ = pooled;

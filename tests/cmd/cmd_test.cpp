@@ -42,7 +42,7 @@ TEST_F(Cmd, HelpAndVersionSucceed) {
   const ChildResult help = espalier({"--help"});
   EXPECT_EQ(help.exit_code, 0);
   for (const char* verb : {"check", "sample", "run", "score", "inspect", "reproduce", "export", "render", "graph",
-                           "explain", "preview", "compare", "sweep"}) {
+                           "explain", "preview", "compare", "sweep", "similarity"}) {
     EXPECT_THAT(help.out, HasSubstr(std::string("espalier ") + verb)) << "an example, or the list of verbs";
     EXPECT_EQ(espalier({verb, "--help"}).exit_code, 0) << verb;
   }

@@ -129,7 +129,7 @@ TEST_P(Killing, ChangesNothing) {
   EXPECT_GE(kills, 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Run, Killing, ::testing::Values("ga", "sosmc", "rjmcmc", "hybrid"),
+INSTANTIATE_TEST_SUITE_P(Run, Killing, ::testing::Values("ga", "sosmc", "rjmcmc", "hybrid", "guided"),
                          [](const auto& engine) { return std::string(engine.param); });
 
 TEST(Killing, TheFolderOfALivingProcessIsNotTaken) {

@@ -10,6 +10,7 @@
 #include "derivation/nudge.h"
 #include "derivation/random_derivation.h"
 #include "search/ga.h"
+#include "search/guided.h"
 #include "search/hybrid.h"
 #include "search/rjmcmc.h"
 #include "search/smc.h"
@@ -117,12 +118,23 @@ RjmcmcSettings rjmcmc_settings() {
   return s;
 }
 
+GuidedSettings guided_settings() {
+  GuidedSettings s;
+  s.genes = {1, kMostGenes};
+  s.particles = s.last_particles = 6;
+  s.steps = 8;
+  s.regrow_particles = 4;
+  s.regrow_steps = 5;
+  return s;
+}
+
 std::unique_ptr<Engine> make_engine(int which, const SearchProblem& problem) {
   switch (which) {
     case 0: return std::make_unique<GaEngine>(problem, ga_settings());
     case 1: return std::make_unique<SmcEngine>(problem, smc_settings(SlotOrder::depth_first));
     case 2: return std::make_unique<SmcEngine>(problem, smc_settings(SlotOrder::random));
     case 3: return std::make_unique<RjmcmcEngine>(problem, rjmcmc_settings());
+    case 4: return std::make_unique<GuidedEngine>(problem, guided_settings());
     default: break;
   }
   HybridSettings hybrid;
@@ -131,7 +143,7 @@ std::unique_ptr<Engine> make_engine(int which, const SearchProblem& problem) {
   return std::make_unique<HybridEngine>(problem, hybrid);
 }
 
-constexpr const char* kNames[] = {"Ga", "Smc", "Sosmc", "Rjmcmc", "Hybrid"};
+constexpr const char* kNames[] = {"Ga", "Smc", "Sosmc", "Rjmcmc", "Guided", "Hybrid"};
 
 class EngineLocks : public ::testing::TestWithParam<int> {};
 
@@ -158,7 +170,7 @@ TEST_P(EngineLocks, HoldWhateverIsLocked) {
   EXPECT_GT(changed, asked / 4) << "locks that hold everything prove nothing";
 }
 
-INSTANTIATE_TEST_SUITE_P(Search, EngineLocks, ::testing::Range(0, 5),
+INSTANTIATE_TEST_SUITE_P(Search, EngineLocks, ::testing::Range(0, 6),
                          [](const auto& which) { return kNames[which.param]; });
 
 }  // namespace
