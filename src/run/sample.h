@@ -35,7 +35,7 @@ inline constexpr const char* kSampleMarker = "samples.toml";
 /// What is written of each sample.
 enum class SampleFiles : std::uint8_t {
   all,
-  genes,  // derivations only: a model and its pictures take a hundred times as long
+  genes,  // derivations only: models and pictures take nearly all of the time
 };
 
 /// The request as TOML ("espalier_sample = 1 ..."), and back; `folder` is not written. Throws Error.
