@@ -137,26 +137,26 @@ def batches(pairs, most):
     """Up to `most` pairs at a time, of at most 250 models together."""
     batch, seen = [], set()
     for pair in pairs:
-        if batch and (len(batch) == most or len(seen | set(pair)) > 250):
+        if batch and (len(batch) == most or len(seen | set(pair[:2])) > 250):
             yield batch
             batch, seen = [], set()
         batch.append(pair)
-        seen |= set(pair)
+        seen |= set(pair[:2])
     if batch:
         yield batch
 
 
-def distances(kind, pairs, words):
-    """Rows of a kind's pairs of paths, (kind, reading, statistics); and the same of the first of each pair drawn anew."""
+def distances(pairs, words):
+    """Of pairs (path, path, kind): rows (kind, reading, statistics); and the same of the first of each pair drawn anew."""
     rows, own = [], []
     for options, most, readings in FORMS:
         for batch in batches(pairs, most):
-            paths = list(dict.fromkeys(path for pair in batch for path in pair))
+            paths = list(dict.fromkeys(path for pair in batch for path in pair[:2]))
             told = json.loads(call("similarity", *paths, "--grammar", GRAMMAR, *attributes(words), *options, "--json"))
             place = {path: index for index, path in enumerate(paths)}
             found = {(pair["first"], pair["second"]): pair for pair in told["pairs"]}
-            for a, b in batch:
-                a, b = place[a], place[b]
+            for *pair, kind in batch:
+                a, b = (place[path] for path in pair)
                 for reading, voxels in readings.items():
                     rows.append((kind, reading, found[min(a, b), max(a, b)][voxels]))
                     own.append(("self", reading, told["models"][a]["anew"][voxels]))
@@ -191,7 +191,7 @@ def likeness(out):
         pairs["different"] = list(zip(paths["same"], paths["other"]))
         rows = []
         for kind, its_pairs in pairs.items():
-            of_pairs, of_firsts = distances(kind, its_pairs, its["attributes"])
+            of_pairs, of_firsts = distances([(*pair, kind) for pair in its_pairs], its["attributes"])
             rows += of_pairs + (of_firsts if kind == "same" else [])
         write_distances(out, name, rows)
 
@@ -222,10 +222,9 @@ def mutation(out):
     rows = []
     for chain in chains:
         target = derivation(ancestors[CHAIN], chain)
-        its = clones(out, chain, ancestors)
-        for steps, path in its.items():
-            of_pairs, of_firsts = distances(steps, [(target, path)], [])
-            rows += of_pairs + ([(0, *row[1:]) for row in of_firsts] if steps == CHAIN else [])
+        of_pairs, of_firsts = distances([(target, path, steps) for steps, path in clones(out, chain, ancestors).items()], [])
+        own = {reading: (0, reading, values) for _, reading, values in of_firsts}
+        rows += [*of_pairs, *own.values()]
     write_distances(out, "mutation", rows)
 
 
