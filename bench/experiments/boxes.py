@@ -51,7 +51,7 @@ def box_chart(title, groups, y_label, x_label=""):
            f"<title>{escape(title)}</title>", f'<rect width="{WIDE}" height="{TALL}" rx="6" fill="#fff"/>',
            f'<text x="12" y="18" font-size="14" font-weight="bold" fill="#222">{escape(title)}</text>',
            f'<text x="12" y="{TOP - 12}">{escape(y_label)}</text>']
-    for t in ticks(y0, y1):
+    for t in ticks(y0, y1, 6):
         out.append(f'<line x1="{LEFT}" x2="{WIDE - MARGIN}" y1="{y_of(t):.1f}" y2="{y_of(t):.1f}" stroke="#ddd"/>')
         out.append(f'<text x="{LEFT - 6}" y="{y_of(t) + 4:.1f}" text-anchor="end">{t:g}</text>')
     for i, (group, name) in enumerate(zip(groups, names)):

@@ -1,7 +1,7 @@
 """The studies of "Guiding curves" (2018), Figs. 4, 6, 7 and 8: what is searched, grown and compared, by many small calls.
 
-Below out/experiments/curves: cost/SCENE-OFFSET (of `espalier compare`), models/SET/KIND/NNN.derivation.json, distances/NAME.csv and
-seconds.json. What is there is not made again.
+Below out/experiments/curves: cost/SCENE-OFFSET and times/KIND (of `espalier compare`), models/SET/KIND/NN.derivation.json,
+distances/NAME.csv and seconds.json. What is there is not made again.
 """
 import csv
 import json
@@ -47,6 +47,7 @@ SETS = {
         "sosmc": ("bench/experiments/bonsai-silhouette.toml", 20000, ["search.engine=sosmc"], 100),
         "hybrid": ("bench/experiments/bonsai-silhouette.toml", 20000, ["search.engine=hybrid"], 100)}},
 }
+TIMED, TIMED_SEEDS = {"same": "guided", "sosmc": "sosmc", "hybrid": "hybrid"}, 10  # Fig. 8: kinds and their engines
 
 # How models are compared: words of `espalier similarity`, pairs of models that one call may look at, and how the answer is read:
 # over which voxels.
@@ -126,11 +127,23 @@ def unguided(out, name):
     return [path for path in paths if is_unfinished(path)]
 
 
+def times(out):
+    """How long searches of Fig. 8 compute, and how far they come."""
+    for kind, engine in TIMED.items():
+        folder = os.path.join(out, "times", kind)
+        scene, evaluations, _, _ = SETS["drawn"]["kinds"][kind]
+        if not os.path.exists(os.path.join(folder, "compare.json")):
+            call("compare", scene, "--engines", engine, "--seeds", str(TIMED_SEEDS), "--evaluations", str(evaluations),
+                 "--clock", "computing", "--out", folder)
+
+
 def models(out):
     for name, its in SETS.items():
         for kind, (scene, evaluations, words, count) in its["kinds"].items():
             search(scene, evaluations, words, os.path.join(out, "models", name, kind), count)
-        unguided(out, name)
+        whole = len(unguided(out, name))
+        with open(os.path.join(out, "models", name, "whole.json"), "w", encoding="utf-8") as file:
+            json.dump({"drawn": 2 * MODELS, "whole": whole}, file)
 
 
 def batches(pairs, most):
@@ -242,7 +255,7 @@ def curves(out):
     if os.path.exists(path):
         with open(path, encoding="utf-8") as file:
             spent = json.load(file)
-    for part in (costs, models, likeness, mutation):
+    for part in (costs, models, times, likeness, mutation):
         before = seconds_used()
         part(out)
         spent[part.__name__] = spent.get(part.__name__, 0) + seconds_used() - before

@@ -3,7 +3,7 @@ import json
 import os
 import statistics
 
-from curves import COST_SCENES, OFFSETS, SETS
+from curves import COST_SCENES, OFFSETS, SETS, TIMED
 from results import quartiles, rank_test, read_csv
 
 # What stands for the set of a pair's distances, one a voxel. Where most voxels are occupied by one of two only, medians are 1
@@ -13,7 +13,13 @@ CHANCE = 0.05
 
 
 def is_complete(folder):
-    return all(os.path.exists(os.path.join(folder, "distances", name + ".csv")) for name in [*SETS, "mutation"])
+    """All parts were made: the last one was."""
+    return os.path.exists(os.path.join(folder, "distances", "mutation.csv"))
+
+
+def read_json(path):
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
 
 
 class Likeness:
@@ -40,13 +46,13 @@ class Curves:
                 its = self.costs.setdefault((scene, offset), {})
                 for row in read_csv(os.path.join(path, "searches.csv")):
                     its.setdefault(row["engine"], []).append(-float(row["score"]))
-                with open(os.path.join(path, "compare.json"), encoding="utf-8") as file:
-                    self.machine = json.load(file).get("machine") or {}
+                self.machine = read_json(os.path.join(path, "compare.json")).get("machine") or {}
         distances = os.path.join(folder, "distances")
         self.likeness = {name: Likeness(os.path.join(distances, name + ".csv")) for name in SETS}
         self.mutation = Likeness(os.path.join(distances, "mutation.csv"))
-        with open(os.path.join(folder, "seconds.json"), encoding="utf-8") as file:
-            self.seconds = sum(json.load(file).values())
+        self.times = {kind: read_csv(os.path.join(folder, "times", kind, "searches.csv")) for kind in TIMED}
+        self.seconds = sum(read_json(os.path.join(folder, "seconds.json")).values())
+        self.whole = {name: read_json(os.path.join(folder, "models", name, "whole.json")) for name in SETS}
 
 
 def probability(p):
