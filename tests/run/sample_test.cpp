@@ -49,7 +49,7 @@ rule Twig when depth < 8 {
   request.grammar = "bush.esp", request.count = 1, request.seed = 4, request.grow = 3;
   AssimpMeshSource source;
   write_samples(request, folder / "ancestor", source, *make_serial_executor(), SampleFiles::genes);
-  request.from = "ancestor/01.derivation.json", request.count = 3, request.grow = steps;
+  request.from = "ancestor/01.derivation.json", request.count = 3, request.grow = steps, request.cell = {64, 48};
   return request;
 }
 
@@ -202,7 +202,8 @@ TEST(Sample, FromWhatIsFinishedIsTold) {
 TEST(Sample, OnlyGenesAreTheSameGenes) {
   const TemporaryFolder folder;
   write_pile(folder);
-  const SampleRequest request = request_in(folder);
+  SampleRequest request = request_in(folder);
+  request.cell = {64, 48};
   AssimpMeshSource source;
   write_samples(request, folder / "genes", source, *make_serial_executor(), SampleFiles::genes);
   sample_into(request, folder / "all");
