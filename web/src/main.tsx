@@ -1,0 +1,3 @@
+import { render } from "preact";
+
+render(<main>Espalier</main>, document.getElementById("studio")!);
