@@ -5,16 +5,17 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
+import curves  # noqa: E402
 import page  # noqa: E402
 import plan  # noqa: E402
 
-STEPS = ("tune", "compare", "study")
+STEPS = ("tune", "compare", "study", "curves")
 
 
 def main():
     names = [name for name, _, _ in plan.SCENES]
     parser = argparse.ArgumentParser(prog="bench/experiments", description=__doc__)
-    parser.add_argument("steps", nargs="*", help="of: tune, compare, study (all)")
+    parser.add_argument("steps", nargs="*", help="of: tune, compare, study, curves (all)")
     parser.add_argument("--page", action="store_true", help="only write the page, from what is there")
     parser.add_argument("--seconds", type=float, default=30, help="budget of a search in the comparisons (30)")
     parser.add_argument("--seeds", type=int, default=5, help="of the comparisons (5)")
@@ -34,6 +35,8 @@ def main():
         plan.compare(options.out, options.only, options.seconds, options.seeds, options.threads, options.clock)
     if "study" in steps:
         plan.study(options.out, options.study_seeds, options.threads)
+    if "curves" in steps:
+        curves.curves(os.path.join(options.out, "curves"))
     page.write_page(options.out)
 
 

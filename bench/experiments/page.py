@@ -5,21 +5,11 @@ import statistics
 
 from chart import chart
 from claims import CLAIMS_2016, CLAIMS_2017, effect, percent
+from curves_page import curves_section
+from curves_results import is_complete
+from markdown import save, table
 from plan import MARKS, OURS, PUBLISHED, ROOT, SCENES, STUDY, STUDY_TARGETS, TUNE_SECONDS, TUNED, variants
 from results import Comparison, Sweep, quartiles, read_csv
-
-PICTURES = os.path.join(ROOT, "docs", "pictures", "experiments")
-
-
-def table(head, rows):
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    return "\n".join(lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]) + "\n"
-
-
-def save(name, text):
-    os.makedirs(PICTURES, exist_ok=True)
-    with open(os.path.join(PICTURES, name), "w", encoding="utf-8") as file:
-        file.write(text)
 
 
 def cell(comparison, variant, mark):
@@ -197,6 +187,8 @@ def write_page(out):
         seeds = len(next(iter(sweeps.values())).about["seeds"])
         parts.append(f"## The study of 2016\n\n{STUDY_NOTE.format(seeds=seeds)}" + study_section(sweeps, seeds))
         parts.append("### Table 1: times\n\n" + times_section(sweeps))
+    if is_complete(os.path.join(out, "curves")):
+        parts.append(curves_section(os.path.join(out, "curves")))
     with open(os.path.join(ROOT, "docs", "experiments.md"), "w", encoding="utf-8") as file:
         file.write("\n".join(parts))
 

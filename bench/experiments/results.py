@@ -10,7 +10,8 @@ def read_csv(path):
         return list(csv.DictReader(file))
 
 
-def quartiles(values):
+def at_shares(values, shares):
+    """What those shares of the values are below, between neighbours in proportion."""
     values = sorted(values)
 
     def at(share):
@@ -19,7 +20,29 @@ def quartiles(values):
         above = min(below + 1, len(values) - 1)
         return values[below] + (rank - below) * (values[above] - values[below])
 
-    return at(0.25), at(0.5), at(0.75)
+    return tuple(at(share) for share in shares)
+
+
+def quartiles(values):
+    return at_shares(values, (0.25, 0.5, 0.75))
+
+
+def rank_test(first, second):
+    """How often chance alone sets two samples so far apart: Mann and Whitney's test, two-sided, by its normal limit, with ties."""
+    pooled = sorted([(value, 0) for value in first] + [(value, 1) for value in second])
+    n, m, total = len(first), len(second), len(pooled)
+    ranks, ties, at = 0.0, 0, 0
+    while at < total:
+        end = at
+        while end < total and pooled[end][0] == pooled[at][0]:
+            end += 1
+        ranks += (at + end + 1) / 2 * sum(1 for _, side in pooled[at:end] if side == 0)
+        ties += (end - at) ** 3 - (end - at)
+        at = end
+    deviation = (n * m / 12 * (total + 1 - ties / (total * (total - 1)))) ** 0.5
+    if deviation == 0:
+        return 1.0
+    return 2 * (1 - statistics.NormalDist().cdf(abs(ranks - n * (total + 1) / 2) / deviation))
 
 
 class Comparison:

@@ -93,8 +93,11 @@ void declare_sample(CLI::App& app, CommandLine& line) {
   verb->add_option("--seed", o.seed, "Seed (1)")->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
   auto* grow = verb->add_option("--grow", o.grow, "Only this many steps of growth from the start");
   grow->check(CLI::Range(0, 1'000'000));
+  verb->add_option("--from", o.from, "With --grow: grow on from this .derivation.json, or run's folder (its best)")
+      ->needs(grow);
   verb->add_option("--genes", o.genes, "Grow each to this many genes, as searches start")
       ->check(CLI::Range(1, 1'000'000))->excludes(grow);
+  verb->add_flag("--only-genes", o.only_genes, "Write derivations only, no models and no pictures");
   verb->add_option("--size", o.cell, "Width,height of a model on the sheet (400,300)")
       ->expected(2)->delimiter(',')->check(CLI::Range(16, 1024));
   verb->add_option("--columns", o.columns, "Columns of the sheet (as near to 4:3 as the count allows)")

@@ -31,6 +31,8 @@ struct SampleOptions {
   std::uint32_t count = 16;
   std::uint64_t seed = 1;
   std::optional<std::uint32_t> grow, genes;
+  std::string from;                 // a derivation or a run's folder; empty: from the start
+  bool only_genes = false;
   std::vector<std::uint32_t> cell;  // width and height on the sheet; empty: as SampleRequest says
   std::uint32_t columns = 0;
   std::vector<std::string> attributes;

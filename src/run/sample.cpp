@@ -7,6 +7,7 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/version.h"
+#include "derivation/encode.h"
 #include "derivation/moves.h"
 #include "derivation/sample.h"
 #include "io/file.h"
@@ -21,6 +22,8 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t kMostSamples = 1000, kMostColumns = 100;
 constexpr const char* kSheet = "samples.png";
+// Of the keys of streams: what grows on draws other numbers than what grew its ancestor, also with the same seed.
+constexpr std::uint32_t kFromSeedling = 0, kFromAncestor = 1;
 
 }  // namespace
 
@@ -28,6 +31,7 @@ std::string to_toml(const SampleRequest& r) {
   std::string text = fmt::format("espalier_sample = 1\ngrammar = {}\nseed = {}\ncount = {}\n", quote_toml(r.grammar),
                                  r.seed, r.count);
   if (r.grow) text += fmt::format("grow = {}\n", *r.grow);
+  if (!r.from.empty()) text += fmt::format("from = {}\n", quote_toml(r.from));
   if (r.genes) text += fmt::format("genes = {}\n", *r.genes);
   text += fmt::format("picture = [{}, {}]\ncell = [{}, {}]\n", r.picture[0], r.picture[1], r.cell[0], r.cell[1]);
   if (r.columns > 0) text += fmt::format("columns = {}\n", r.columns);
@@ -50,6 +54,8 @@ SampleRequest parse_sample_request(std::string_view text, const std::string& nam
   if (const auto grow = s.whole("grow", 0, 1'000'000)) r.grow = static_cast<std::uint32_t>(*grow);
   if (const auto genes = s.whole("genes", 1, 1'000'000)) r.genes = static_cast<std::uint32_t>(*genes);
   if (r.grow && r.genes) s.fail("genes", "cannot stand beside grow");
+  r.from = s.text("from").value_or("");
+  if (!r.from.empty() && !r.grow) s.fail("from", "needs grow: how many steps it shall go on growing");
   const auto read_size = [&](const char* key, std::uint64_t most, std::array<std::uint32_t, 2>& size) {
     const auto read = s.wholes(key, 2, 16, most);
     if (read) size = {static_cast<std::uint32_t>((*read)[0]), static_cast<std::uint32_t>((*read)[1])};
@@ -71,11 +77,27 @@ SampleSet::SampleSet(const SampleRequest& request, MeshSource& source, Executor&
   meshes_ = load_meshes(grammar_, source);
   inputs_.add_grammar(grammar_);
   request_.grammar = inputs_.grammar_name();
+  if (!request_.from.empty()) read_ancestor();
   settings_ = fmt::format("# Samples drawn by Espalier {}.\n{}", kVersion, to_toml(request_));
   draw();
   RenderSettings look;
   look.width = request_.picture[0], look.height = request_.picture[1];
   files_.emplace(*grammar_.graph, meshes_, load_textures(grammar_), no_ghosts_, look, executor);
+}
+
+void SampleSet::read_ancestor() {
+  const std::string path = (fs::path(request_.folder) / request_.from).string();
+  if (!request_.grow) throw Error(fmt::format("{}: to go on from it, say how many steps it shall grow", path));
+  const InputFile& file = inputs_.add_start(path);
+  try {
+    ancestor_ = decode(*grammar_.graph, file.bytes);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", path, error.what()));
+  }
+  if (is_finished(*ancestor_) && *request_.grow > 0) {
+    warnings_.push_back(fmt::format("{} is finished, none of its slots is open: all samples are as it is", path));
+  }
+  request_.from = file.name;
 }
 
 Derivation SampleSet::draw_one(RandomStream& random) {
@@ -85,7 +107,7 @@ Derivation SampleSet::draw_one(RandomStream& random) {
     truncated_ += result.truncated;
     return std::move(result.derivation);
   }
-  Derivation derivation = seedling(graph, random);
+  Derivation derivation = ancestor_ ? *ancestor_ : seedling(graph, random);
   if (request_.grow) {
     for (std::uint32_t step = 0; step < *request_.grow; ++step) {
       if (grow_open_slot(graph, derivation, random) != GrowthStep::grown) break;
@@ -100,7 +122,7 @@ Derivation SampleSet::draw_one(RandomStream& random) {
 
 void SampleSet::draw() {
   for (std::uint32_t i = 0; i < request_.count; ++i) {
-    RandomStream random({request_.seed, Purpose::sample, 0, i, 0});
+    RandomStream random({request_.seed, Purpose::sample, 0, i, ancestor_ ? kFromAncestor : kFromSeedling});
     derivations_.push_back(draw_one(random));
   }
   if (truncated_ > 0) {
@@ -126,10 +148,11 @@ Provenance SampleSet::provenance(std::size_t index) const {
   return p;
 }
 
-std::vector<std::string> SampleSet::names() const {
+std::vector<std::string> SampleSet::names(SampleFiles which) const {
   std::vector<std::string> names = {kSampleMarker, "inputs"};
   for (const char* ending : {".derivation.json", ".glb", ".png"}) {
     for (std::size_t i = 0; i < size(); ++i) names.push_back(fmt::format("{:02}{}", i + 1, ending));
+    if (which == SampleFiles::genes) return names;
   }
   names.push_back(kSheet);
   return names;
@@ -160,10 +183,10 @@ void SampleSet::write_sheet(const std::string& path) {
 }
 
 std::vector<std::string> write_samples(const SampleRequest& request, const std::string& out, MeshSource& source,
-                                       Executor& executor) {
+                                       Executor& executor, SampleFiles which) {
   SampleSet samples(request, source, executor);
   RunFolder folder(out, kSampleMarker);
-  for (const std::string& name : samples.names()) samples.write(name, (fs::path(folder.staging()) / name).string());
+  for (const std::string& name : samples.names(which)) samples.write(name, (fs::path(folder.staging()) / name).string());
   folder.commit();
   return samples.warnings();
 }

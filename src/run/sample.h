@@ -23,6 +23,7 @@ struct SampleRequest {
   std::uint32_t count = 16;                       // 1..1000
   std::uint64_t seed = 1;
   std::optional<std::uint32_t> grow;              // this many steps of growth from a seedling, not the whole prior
+  std::string from;                               // path: `grow` goes on with this derivation; empty: from a seedling
   std::optional<std::uint32_t> genes;             // grown by moves to this many genes, as searches start; excludes grow
   std::array<std::uint32_t, 2> picture = {800, 600};
   std::array<std::uint32_t, 2> cell = {400, 300};  // of a model on the sheet
@@ -30,6 +31,12 @@ struct SampleRequest {
 };
 
 inline constexpr const char* kSampleMarker = "samples.toml";
+
+/// What is written of each sample.
+enum class SampleFiles : std::uint8_t {
+  all,
+  genes,  // derivations only: models and pictures take nearly all of the time
+};
 
 /// The request as TOML ("espalier_sample = 1 ..."), and back; `folder` is not written. Throws Error.
 std::string to_toml(const SampleRequest& request);
@@ -43,7 +50,7 @@ class SampleSet {
   std::size_t size() const { return derivations_.size(); }
   const Derivation& derivation(std::size_t index) const { return derivations_[index]; }
   Provenance provenance(std::size_t index) const;
-  std::vector<std::string> names() const;
+  std::vector<std::string> names(SampleFiles which = SampleFiles::all) const;
   void write(const std::string& name, const std::string& path);
   void write_individual(std::size_t index, const std::string& path, const Provenance& provenance);
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -51,6 +58,7 @@ class SampleSet {
  private:
   void draw();
   Derivation draw_one(RandomStream& random);
+  void read_ancestor();
   void write_sheet(const std::string& path);
 
   SampleRequest request_;  // its grammar names the copy
@@ -58,6 +66,7 @@ class SampleSet {
   MeshTable meshes_;
   InputFiles inputs_;
   std::string settings_;
+  std::optional<Derivation> ancestor_;  // what `from` names
   std::vector<Derivation> derivations_;
   std::vector<std::string> warnings_;
   std::size_t truncated_ = 0, short_ = 0;  // samples that met the budget of genes; that could not grow to `genes`
@@ -67,6 +76,6 @@ class SampleSet {
 
 /// Draws and writes into a new folder `out` (see RunFolder); returns the warnings. Throws Error, then nothing is left.
 std::vector<std::string> write_samples(const SampleRequest& request, const std::string& out, MeshSource& source,
-                                       Executor& executor);
+                                       Executor& executor, SampleFiles which = SampleFiles::all);
 
 }  // namespace espalier

@@ -35,27 +35,33 @@ CurveFinder::CurveFinder(const std::vector<CubicBezier>& curves, bool blend) : b
 }
 
 void CurveFinder::prepare(const CubicBezier& curve) {
-  constexpr std::size_t kChords = CurveTable::kChords;
   CurveTable& out = curves_.emplace_back();
   const DVec3 p0(curve.points[0]), p1(curve.points[1]), p2(curve.points[2]), p3(curve.points[3]);
   const DVec3 power[] = {p0, 3.0 * (p1 - p0), 3.0 * (p0 - 2.0 * p1 + p2), p3 - 3.0 * p2 + 3.0 * p1 - p0};
-  double gap = 0, largest = 0;
+  double largest = 0;
   for (const Vec3& corner : curve.points) largest = std::max(largest, length(DVec3(corner)));
   for (int axis = 0; axis < 3; ++axis) {
     for (int k = 0; k < 4; ++k) out.power[k][axis] = static_cast<float>(power[k][axis]);
   }
-  for (std::size_t i = 0; i < kChords; ++i) {
-    const double t0 = static_cast<double>(i) / kChords, t1 = static_cast<double>(i + 1) / kChords;
-    const DVec3 a = point_at(curve, t0), along = point_at(curve, t1) - a;
-    const double length2 = along.x * along.x + along.y * along.y + along.z * along.z;
-    for (int axis = 0; axis < 3; ++axis) {
-      out.from[axis][i] = static_cast<float>(a[axis]);
-      out.along[axis][i] = static_cast<float>(along[axis]);
+  for (int k = 0; k < 3; ++k)
+    for (int axis = 0; axis < 3; ++axis) out.derivative[k][axis] = (k + 1) * power[k + 1][axis];
+  for (double& coefficient : out.slope) coefficient = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (int axis = 0; axis < 3; ++axis) out.slope[k + j] += power[k][axis] * out.derivative[j][axis];
+  // A sample stands for the curve half-way to its neighbours.
+  constexpr double kStep = 1.0 / (CurveTable::kSamples - 1);
+  double reach = 0;
+  for (std::size_t i = 0; i < CurveTable::kSamples; ++i) {
+    const double t = static_cast<double>(i) * kStep;
+    const DVec3 here = point_at(curve, t);
+    for (int axis = 0; axis < 3; ++axis) out.sample[axis][i] = static_cast<float>(here[axis]);
+    for (const double end : {std::max(t - kStep / 2, 0.0), std::min(t + kStep / 2, 1.0)}) {
+      const double half = std::abs(end - t);
+      reach = std::max(reach, length(point_at(curve, end) - here) + greatest_gap(curve, t, end) * (half > 0));
     }
-    out.per_length2[i] = length2 > 1e-30 ? static_cast<float>(1 / length2) : 0.0f;
-    gap = std::max(gap, greatest_gap(curve, t0, t1));
   }
-  out.gap = static_cast<float>(gap + 1e-6 * largest);  // what floats may lose is put on top
+  out.reach = static_cast<float>(reach + 1e-6 * largest);  // what floats may lose is put on top
   still_.push_back(static_cast<float>(1e-5 * std::max({length(power[1]), length(power[2]), length(power[3])})));
 }
 

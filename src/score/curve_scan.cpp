@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "score/curve_scan.h"
@@ -23,29 +25,28 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, 8>;
 using Row = hn::Vec<Floats>;
 
-/// Of the chords: squared distances, and where along the chord the nearest point is, 0..1.
-struct alignas(32) ChordScan {
-  float distance2[CurveTable::kChords], at[CurveTable::kChords];
+constexpr std::size_t kSamples = CurveTable::kSamples;
+constexpr float kNone = std::numeric_limits<float>::infinity();
+
+/// Squared distances of the samples, with nothing beyond both ends.
+struct alignas(32) SampleScan {
+  float all[8 + kSamples + 8];
+  float* distance2() { return all + 8; }
+  const float* distance2() const { return all + 8; }
 };
 
 /// The least of the squared distances.
-float scan_chords(const CurveTable& curve, const float p[3], ChordScan& out) {
+float scan_samples(const CurveTable& curve, const float p[3], SampleScan& out) {
   const Floats f;
-  Row least = hn::Set(f, std::numeric_limits<float>::infinity());
-  for (std::size_t i = 0; i < CurveTable::kChords; i += hn::Lanes(f)) {
-    Row away[3], dot = hn::Zero(f);
-    for (int a = 0; a < 3; ++a) {
-      away[a] = hn::Sub(hn::Set(f, p[a]), hn::Load(f, curve.from[a] + i));
-      dot = hn::Add(dot, hn::Mul(away[a], hn::Load(f, curve.along[a] + i)));
-    }
-    const Row s = hn::Min(hn::Max(hn::Mul(dot, hn::Load(f, curve.per_length2 + i)), hn::Zero(f)), hn::Set(f, 1.0f));
+  out.all[7] = out.all[8 + kSamples] = kNone;
+  Row least = hn::Set(f, kNone);
+  for (std::size_t i = 0; i < kSamples; i += hn::Lanes(f)) {
     Row distance2 = hn::Zero(f);
     for (int a = 0; a < 3; ++a) {
-      const Row rest = hn::Sub(away[a], hn::Mul(s, hn::Load(f, curve.along[a] + i)));
-      distance2 = hn::Add(distance2, hn::Mul(rest, rest));
+      const Row away = hn::Sub(hn::Load(f, curve.sample[a] + i), hn::Set(f, p[a]));
+      distance2 = hn::Add(distance2, hn::Mul(away, away));
     }
-    hn::Store(distance2, f, out.distance2 + i);
-    hn::Store(s, f, out.at + i);
+    hn::Store(distance2, f, out.distance2() + i);
     least = hn::Min(least, distance2);
   }
   return hn::GetLane(hn::MinOfLanes(f, least));
@@ -54,15 +55,25 @@ float scan_chords(const CurveTable& curve, const float p[3], ChordScan& out) {
 /// A point or a direction; the fourth lane is 0.
 using Xyz = float __attribute__((vector_size(16)));
 
-Xyz load(const float v[3]) { return Xyz{v[0], v[1], v[2], 0}; }
+Xyz load(const float v[4]) {
+  Xyz out;
+  std::memcpy(&out, v, sizeof out);
+  return out;
+}
 
 float dot(Xyz a, Xyz b) {
   const Xyz product = a * b;
   return product[0] + product[1] + product[2];
 }
 
-/// Newton's method from t.
-void refine_from(const Xyz power[4], Xyz p, float t, CurveHit& best) {
+CurveHit hit_at(const CurveTable& curve, Xyz p, float t) {
+  const Xyz away = load(curve.power[0]) - p + t * (load(curve.power[1]) + t * (load(curve.power[2]) + t * load(curve.power[3])));
+  return {t, dot(away, away)};
+}
+
+/// Down to the bottom of the valley by Newton's method, wherever it starts.
+CurveHit descend(const CurveTable& curve, Xyz p, float t) {
+  const Xyz power[4] = {load(curve.power[0]), load(curve.power[1]), load(curve.power[2]), load(curve.power[3])};
   Xyz away = power[0] - p + t * (power[1] + t * (power[2] + t * power[3]));
   CurveHit found{t, dot(away, away)};
   for (int turn = 0; turn < 8; ++turn) {  // half as many leave errors of 0.01 here and there
@@ -82,37 +93,75 @@ void refine_from(const Xyz power[4], Xyz p, float t, CurveHit& best) {
     if (distance2 < 1.000001f * found.distance2) found = {t, distance2};
     if (moved < 1e-5f) break;
   }
-  if (found.distance2 < best.distance2) best = found;
+  return found;
 }
 
-/// From each chord whose nearest point may be the nearest of all (distance2 <= reach2), but once in each valley.
-CurveHit refine(const CurveTable& curve, const float p[3], const ChordScan& scan, float reach2) {
-  CurveHit best{0, std::numeric_limits<float>::infinity()};
-  const Xyz power[4] = {load(curve.power[0]), load(curve.power[1]), load(curve.power[2]), load(curve.power[3])};
-  for (std::size_t i = 0; i < CurveTable::kChords; ++i) {
-    const float here = scan.distance2[i];
-    if (here > reach2 || (i > 0 && scan.distance2[i - 1] <= here)) continue;
-    if (i + 1 < CurveTable::kChords && scan.distance2[i + 1] < here) continue;
-    refine_from(power, load(p), (static_cast<float>(i) + scan.at[i]) * (1.0f / CurveTable::kChords), best);
+/// A step of Halley's method on the slope of the squared distance, a polynomial of degree 5; NaN or `valley` false
+/// where that does not lead to the bottom of a valley.
+HWY_INLINE double halley(const double slope[6], double t, bool& valley) {
+  const double t2 = t * t;
+  const double f = slope[0] + slope[1] * t + t2 * (slope[2] + slope[3] * t + t2 * (slope[4] + slope[5] * t));
+  const double f1 = slope[1] + 2 * slope[2] * t + t2 * (3 * slope[3] + 4 * slope[4] * t + t2 * (5 * slope[5]));
+  const double half_f2 = slope[2] + 3 * slope[3] * t + t2 * (6 * slope[4] + 10 * slope[5] * t);
+  const double square = f1 * f1, bottom = square - f * half_f2;
+  valley = f1 > 0 && bottom > 0.25 * square;
+  return std::min(std::max(t - f * f1 / bottom, 0.0), 1.0);
+}
+
+/// From each sample that may be the nearest of all (distance2 <= reach2) and has none nearer beside it.
+CurveHit refine(const CurveTable& curve, const float p[3], const SampleScan& scan, float reach2) {
+  const Floats f;
+  CurveHit best{0, kNone};
+  const Xyz place = {p[0], p[1], p[2], 0};
+  double slope[6];
+  for (int k = 0; k < 6; ++k) slope[k] = curve.slope[k];
+  for (int k = 0; k < 3; ++k)
+    slope[k] -= p[0] * curve.derivative[k][0] + p[1] * curve.derivative[k][1] + p[2] * curve.derivative[k][2];
+  std::uint32_t valleys = 0;
+  for (std::size_t i = 0; i < kSamples; i += hn::Lanes(f)) {
+    const float* const at = scan.distance2() + i;
+    const Row here = hn::Load(f, at);
+    const auto lowest = hn::And(hn::Le(here, hn::Set(f, reach2)),
+                                hn::And(hn::Lt(here, hn::LoadU(f, at - 1)), hn::Le(here, hn::LoadU(f, at + 1))));
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(f, lowest, bits);
+    valleys |= static_cast<std::uint32_t>(bits[0]) << i;
+  }
+  for (; valleys != 0; valleys &= valleys - 1) {
+    const auto i = static_cast<std::size_t>(__builtin_ctz(valleys));
+    // The bottom of the parabola through three samples is a good place to begin.
+    const float* const at = scan.distance2() + i;
+    const float left = at[0] - *(at - 1), right = at[1] - at[0], bend = right - left;
+    const float aside = bend > 0 && bend < kNone ? -0.5f * (left + right) / bend : 0.0f;
+    const float start = (static_cast<float>(i) + aside) * (1.0f / (kSamples - 1));
+    // After a step that short the next would be of the order of its cube: mostly the first one is.
+    double t = start, moved = 1;
+    bool valley = true;
+    for (int turn = 0; turn < 3 && valley && moved > 4e-3; ++turn) {
+      const double next = halley(slope, t, valley);
+      moved = std::abs(next - t), t = next;
+    }
+    const CurveHit found = valley && moved <= 4e-3 ? hit_at(curve, place, static_cast<float>(t)) : descend(curve, place, start);
+    if (found.distance2 < best.distance2) best = found;
   }
   return best;
 }
 
 void scan(const CurveTable* curves, std::size_t count, const float p[3], CurveHit* hits) {
-  constexpr std::size_t kAtOnce = 64;
-  ChordScan scans[kAtOnce];
-  float least[kAtOnce];
-  float nearest = std::numeric_limits<float>::infinity(), smallest = nearest;
+  constexpr std::size_t kMost = 64;
+  SampleScan scans[kMost];
+  float least[kMost];
+  float nearest2 = kNone;
   for (std::size_t c = 0; c < count; ++c) {
-    least[c] = scan_chords(curves[c], p, scans[c]);
-    smallest = std::min(smallest, least[c]);
-    nearest = std::min(nearest, std::sqrt(least[c]) + curves[c].gap);
+    least[c] = scan_samples(curves[c], p, scans[c]);
+    nearest2 = std::min(nearest2, least[c]);
+    hits[c] = {0, kNone};
   }
+  const float nearest = std::sqrt(nearest2);
   for (std::size_t c = 0; c < count; ++c) {
-    const float reach = nearest + curves[c].gap;
-    const float reach2 = std::max(reach * reach, smallest);  // far away a small gap is lost in rounding
-    hits[c] = least[c] <= reach2 ? refine(curves[c], p, scans[c], reach2)
-                                 : CurveHit{0, std::numeric_limits<float>::infinity()};
+    const float reach = nearest + curves[c].reach;
+    const float reach2 = std::max(reach * reach, nearest2);  // far away a small reach is lost in rounding
+    if (least[c] <= reach2) hits[c] = refine(curves[c], p, scans[c], reach2);
   }
 }
 

@@ -275,5 +275,26 @@ TEST_F(Cmd, SampleWritesItsFolder) {
   EXPECT_FALSE(fs::exists(folder_ / "t"));
 }
 
+TEST_F(Cmd, SampleGoesOnFromAnother) {
+  const char* ancestor = "s/02.derivation.json";
+  EXPECT_EQ(espalier({"sample", "pile.esp", "-n", "2", "--grow", "1", "--only-genes", "--out", "s"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "s/02.glb"));
+  const ChildResult grown =
+      espalier({"sample", "pile.esp", "--from", ancestor, "-n", "1", "--grow", "2", "--only-genes", "--out", "t"});
+  EXPECT_EQ(grown.exit_code, 0) << grown.err;
+  EXPECT_THAT(grown.out, AllOf(HasSubstr("wrote 1 sample to t"), Not(HasSubstr("samples.png"))));
+  EXPECT_EQ(espalier({"reproduce", "t/01.derivation.json"}).exit_code, 0);
+  for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{
+           {"--from", ancestor}, {"--from", ancestor, "--genes", "9"}, {"--from", "none", "--grow", "1"},
+           {"--from", ancestor, "--grow", "1", "-D", "widest=2"}}) {
+    std::vector<std::string> arguments = {"sample", "pile.esp", "--out", "u"};
+    arguments.insert(arguments.end(), bad.begin(), bad.end());
+    const ChildResult result = espalier(arguments);
+    EXPECT_EQ(result.exit_code, 2) << ::testing::PrintToString(bad);
+    EXPECT_FALSE(result.err.empty());
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "u"));
+}
+
 }  // namespace
 }  // namespace espalier

@@ -1,9 +1,12 @@
 #include "run/sample.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "derivation/sample.h"
 #include "io/mesh_import.h"
 #include "run/fixtures.h"
 #include "run/reproduce.h"
@@ -32,15 +35,42 @@ void sample_into(const SampleRequest& request, const std::string& out, int threa
   write_samples(request, out, source, *make_thread_executor(threads));
 }
 
+/// One sample of three steps in `folder`/ancestor, and a request that goes on from it.
+SampleRequest going_on(const TemporaryFolder& folder, std::uint32_t steps) {
+  write_text(folder / "bush.esp", R"(grammar bush 1
+start Bush
+rule Bush { spawn Twig }
+rule Twig when depth < 8 {
+  k ~ uniform(1, 2)  size k  emit box
+  for i in 1..3 { maybe 0.9 spawn Twig }
+}
+)");
+  SampleRequest request = request_in(folder);
+  request.grammar = "bush.esp", request.count = 1, request.seed = 4, request.grow = 3;
+  AssimpMeshSource source;
+  write_samples(request, folder / "ancestor", source, *make_serial_executor(), SampleFiles::genes);
+  request.from = "ancestor/01.derivation.json", request.count = 3, request.grow = steps, request.cell = {64, 48};
+  return request;
+}
+
+/// All of `part` stands in `whole`, in its order.
+bool runs_through(const std::vector<std::uint32_t>& part, const std::vector<std::uint32_t>& whole) {
+  std::size_t at = 0;
+  for (const std::uint32_t draw : whole) at += at < part.size() && part[at] == draw;
+  return at == part.size();
+}
+
 TEST(SampleRequest, WrittenOutItReadsBackEqual) {
   SampleRequest request;
   request.grammar = "a b.esp", request.count = 5, request.seed = 9, request.grow = 4, request.picture = {32, 16};
   request.attributes = {{"x", "1"}, {"fork", "25deg"}};
+  request.from = "old \"one\".derivation.json";
   const SampleRequest again = parse_sample_request(to_toml(request), "s", "");
   EXPECT_EQ(to_toml(again), to_toml(request));
   EXPECT_EQ(again.attributes, request.attributes);
   EXPECT_EQ(again.grow, request.grow);
-  request.grow.reset(), request.genes = 30, request.cell = {80, 60}, request.columns = 4;
+  EXPECT_EQ(again.from, request.from);
+  request.from.clear(), request.grow.reset(), request.genes = 30, request.cell = {80, 60}, request.columns = 4;
   const SampleRequest third = parse_sample_request(to_toml(request), "s", "");
   EXPECT_EQ(to_toml(third), to_toml(request));
   EXPECT_EQ(third.genes, 30u);
@@ -84,6 +114,102 @@ TEST(Sample, GrowStopsAfterItsSteps) {
   EXPECT_EQ(SampleSet(request, source, *executor).derivation(0).size(), 1u);
   request.grow = 1;
   EXPECT_EQ(SampleSet(request, source, *executor).derivation(0).size(), 2u);
+}
+
+TEST(Sample, FromGoesOnWithWhatStandsThere) {
+  const TemporaryFolder folder;
+  SampleRequest request = going_on(folder, 0);
+  AssimpMeshSource source;
+  const auto executor = make_serial_executor();
+  const Derivation ancestor = SampleSet(request, source, *executor).derivation(2);  // no step: the ancestor itself
+  ASSERT_EQ(ancestor.size(), 4u);
+  request.grow = 5;
+  const SampleSet grown(request, source, *executor);
+  for (std::size_t i = 0; i < grown.size(); ++i) {
+    EXPECT_EQ(grown.derivation(i).size(), 9u);
+    EXPECT_EQ(grown.derivation(i).detail_seed, ancestor.detail_seed);
+    EXPECT_TRUE(runs_through(ancestor.draws, grown.derivation(i).draws));
+    for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(grown.derivation(i) == grown.derivation(k));
+  }
+  EXPECT_TRUE(grown.warnings().empty());
+  request.from.clear(), request.grow = 8;  // of the same seed: all but the first have another ancestor
+  const SampleSet others(request, source, *executor);
+  EXPECT_TRUE(runs_through(ancestor.draws, others.derivation(0).draws));
+  EXPECT_FALSE(runs_through(ancestor.draws, others.derivation(1).draws));
+}
+
+TEST(Sample, WhatGoesOnDrawsOtherNumbersThanItsAncestorDid) {
+  const TemporaryFolder folder;
+  const SampleRequest request = going_on(folder, 6);  // with the seed of the ancestor
+  AssimpMeshSource source;
+  const Derivation grown = SampleSet(request, source, *make_serial_executor()).derivation(0);
+  std::vector<std::uint32_t> draws = grown.draws;
+  std::sort(draws.begin(), draws.end());
+  EXPECT_EQ(std::adjacent_find(draws.begin(), draws.end()), draws.end());
+}
+
+TEST(Sample, WhatGoesOnIsReproducedIdentically) {
+  const TemporaryFolder folder;
+  const SampleRequest request = going_on(folder, 6);
+  sample_into(request, folder / "out");
+  std::filesystem::remove_all(folder / "ancestor");
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/inputs/start/01.derivation.json"));
+  AssimpMeshSource source;
+  const auto executor = make_serial_executor();
+  const ReproduceReport report = reproduce(folder / "out/03.glb", "", source, *executor);
+  EXPECT_TRUE(report.identical()) << ::testing::PrintToString(report.differences);
+  write_text(folder / "out/inputs/start/01.derivation.json", "{}");
+  EXPECT_FALSE(reproduce(folder / "out/03.glb", "", source, *executor).identical());
+}
+
+TEST(Sample, FromSaysWhatIsWrong) {
+  const TemporaryFolder folder;
+  const SampleRequest request = going_on(folder, 6);
+  AssimpMeshSource source;
+  const auto executor = make_serial_executor();
+  const auto message = [&](const SampleRequest& bad) -> std::string {
+    try {
+      SampleSet(bad, source, *executor);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  SampleRequest bad = request;
+  bad.grow.reset();
+  EXPECT_THAT(message(bad), ::testing::HasSubstr("say how many steps it shall grow"));
+  EXPECT_THROW(parse_sample_request(to_toml(bad), "s", ""), Error);
+  bad = request, bad.from = "none.derivation.json";
+  EXPECT_THAT(message(bad), ::testing::HasSubstr("none.derivation.json: cannot read"));
+  write_pile(folder);
+  bad = request, bad.grammar = "pile.esp";
+  EXPECT_THAT(message(bad), ::testing::HasSubstr("01.derivation.json: derivation: grammar: made by \"bush\""));
+}
+
+TEST(Sample, FromWhatIsFinishedIsTold) {
+  const TemporaryFolder folder;
+  SampleRequest request = going_on(folder, 20'000);  // more than a bush of eight levels can take
+  request.count = 1;
+  AssimpMeshSource source;
+  const auto executor = make_serial_executor();
+  write_samples(request, folder / "whole", source, *executor, SampleFiles::genes);
+  request.from = "whole/01.derivation.json", request.grow = 1;
+  const SampleSet samples(request, source, *executor);
+  ASSERT_TRUE(is_finished(samples.derivation(0)));
+  EXPECT_THAT(samples.warnings(), ::testing::ElementsAre(::testing::HasSubstr("is finished")));
+}
+
+TEST(Sample, OnlyGenesAreTheSameGenes) {
+  const TemporaryFolder folder;
+  write_pile(folder);
+  SampleRequest request = request_in(folder);
+  request.cell = {64, 48};
+  AssimpMeshSource source;
+  write_samples(request, folder / "genes", source, *make_serial_executor(), SampleFiles::genes);
+  sample_into(request, folder / "all");
+  auto genes = read_tree(folder / "genes"), all = read_tree(folder / "all");
+  EXPECT_EQ(genes.size(), 5u);  // three derivations, samples.toml, the grammar
+  for (const auto& [name, bytes] : genes) EXPECT_EQ(bytes, all[name]) << name;
 }
 
 TEST(Sample, GenesGrowsToThatMany) {
