@@ -17,7 +17,7 @@ export function openContext(): { canvas: HTMLCanvasElement; context: WebGL2Rende
   const create = (antialias: boolean): [HTMLCanvasElement, WebGL2RenderingContext | null] => {
     const canvas = document.createElement("canvas");
     const options = { antialias, alpha: false, powerPreference: "high-performance", stencil: false } as const;
-    return [canvas, canvas.getContext("webgl2", options)];
+    return [canvas, canvas.getContext("webgl2", options) as WebGL2RenderingContext | null];
   };
   const [canvas, context] = create(false);
   if (!context) return null;

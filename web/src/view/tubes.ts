@@ -9,7 +9,7 @@ import { across, add, along, cross, dot, scale, unit, type V } from "./vec";
 const kRings = 32, kSides = 20;
 
 /** Positions and normals of the tubes of those curves that have a thickness, and their triangles. Frames are carried along the
- *  curve, so that tubes do not twist; rings lie across it. Both ends are closed by points. */
+ *  curve, so that tubes do not twist; rings lie across it. Ends are open. */
 export function tubeArrays(curves: readonly Curve[]): { positions: Float32Array; normals: Float32Array; indices: Uint32Array } {
   const thick = curves.filter((c) => c.thickness && Math.max(...c.thickness) > 0);
   const positions: number[] = [], normals: number[] = [], indices: number[] = [];
