@@ -15,7 +15,7 @@ export function contactSquare(box: Box): { x: number; z: number; side: number } 
 /** Fills kContactCells^2 bytes (rows along z, each along x): 0 open .. 255 covered. Of large models every so many parts count. */
 export function contactPatch(
   model: ModelMessage, extents: readonly Extent[], box: Box, scratch: Float32Array, patch: Uint8Array): void {
-  const n = kContactCells, { x, z, side } = contactSquare(box), height = Math.max(0.12 * (box.max[1] - box.min[1]), 1e-6);
+  const n = kContactCells, { x, z, side } = contactSquare(box), height = Math.max(0.3 * (box.max[1] - box.min[1]), 1e-6);
   const stride = Math.max(1, Math.ceil(model.instances / kMostParts)), cell = side / n, f = model.floats;
   scratch.fill(0);
   for (let i = 0; i < model.instances; i += stride) {

@@ -50,6 +50,13 @@ export class Draft {
     this.gesture = { id, label, before: this.scene, dirty: false, sent: false };
   }
 
+  /** Shown, not sent. */
+  preview(scene: Scene): void {
+    if (!this.gesture) return;
+    this.scene = scene;
+    this.changed();
+  }
+
   /** Shown at once, sent with the next frame. */
   change(scene: Scene): void {
     const { gesture } = this;

@@ -67,8 +67,8 @@ void main() {
 #endif
   float grid = max(0.32 * lines(vPlace, uStep), 0.75 * lines(vPlace, 10.0 * uStep));
   vec3 colour = mix(uGround, uGrid, grid * fade);
-  colour = mix(colour, uAxisX, 0.75 * axis(vPlace.y));
-  colour = mix(colour, uAxisZ, 0.75 * axis(vPlace.x));
+  colour = mix(colour, uAxisX, 0.5 * axis(vPlace.y));
+  colour = mix(colour, uAxisZ, 0.5 * axis(vPlace.x));
   colour *= 1.0 - shade * uDark;
   float alpha = fade * (below ? 0.3 : 1.0);
   outColour = vec4(colour, alpha);

@@ -104,13 +104,18 @@ export function snapped(o: Orbit, side: Side): Orbit {
   return { ...o, azimuth: o.azimuth + turnBy - 2 * Math.PI * Math.round(turnBy / (2 * Math.PI)), elevation };
 }
 
-/** Far enough away that the ball around `box` is seen whole. */
+/** Around the middle of `box`, as near as all its corners are seen with a margin. */
 export function framed(o: Orbit, box: Box, aspect: number): Orbit {
   if (isEmpty(box)) return { ...kStart };
-  const size = subtract(box.max, box.min);
-  const radius = Math.max(Math.hypot(size[0], size[1], size[2]) / 2, 1e-3);
-  const half = Math.atan(kHalfTan * Math.min(1, aspect));
-  return { ...o, target: mix(box.min, box.max, 0.5), distance: clamp(1.02 * radius / Math.sin(half), kNearest, kFurthest) };
+  const target = mix(box.min, box.max, 0.5), { right, up, back } = eyeOf(o, 1, 1), fill = 0.97;
+  let least = 0;
+  for (let corner = 0; corner < 8; ++corner) {
+    const off = subtract([corner & 1 ? box.max[0] : box.min[0], corner & 2 ? box.max[1] : box.min[1],
+      corner & 4 ? box.max[2] : box.min[2]], target);
+    const wide = Math.abs(dot(off, right)) / (fill * kHalfTan * Math.max(aspect, 0.05)), high = Math.abs(dot(off, up)) / (fill * kHalfTan);
+    least = Math.max(least, dot(off, back) + Math.max(wide, high));
+  }
+  return { ...o, target, distance: clamp(least, 10 * kNearest, kFurthest) };
 }
 
 /** Between two orbits, eased at both ends; t from 0 to 1. Distances change by ratio. */

@@ -47,7 +47,7 @@ export class Stage {
     this.renderer = new WebGLRenderer({ canvas, context });
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
-    this.renderer.sortObjects = true;
+    this.renderer.sortObjects = false; // `add` keeps the order; sorting would measure every geometry
     this.renderer.setPixelRatio(software ? 1 : Math.min(window.devicePixelRatio || 1, 2));
     this.parts = new Parts(!software);
     this.ground = new Ground(!software);
@@ -69,6 +69,7 @@ export class Stage {
   add(object: Object3D, order: number): void {
     object.renderOrder = order;
     this.over.add(object);
+    this.over.children.sort((a, b) => a.renderOrder - b.renderOrder);
   }
 
   remove(object: Object3D): void {
@@ -129,7 +130,12 @@ export class Stage {
     const depthTexture = new DepthTexture(kShadowSide, kShadowSide, UnsignedIntType);
     depthTexture.compareFunction = LessEqualCompare;
     depthTexture.minFilter = depthTexture.magFilter = LinearFilter;
-    return new WebGLRenderTarget(kShadowSide, kShadowSide, { depthTexture, generateMipmaps: false });
+    const target = new WebGLRenderTarget(kShadowSide, kShadowSide, { depthTexture, generateMipmaps: false });
+    // Filled with "nothing in the way" before the first model: a texture that was never drawn to is none.
+    this.renderer.setRenderTarget(target);
+    this.renderer.clear();
+    this.renderer.setRenderTarget(null);
+    return target;
   }
 
   private renderShadow(box: Box): void {

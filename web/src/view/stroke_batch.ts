@@ -183,8 +183,8 @@ uniform vec3 uColour;
 void stroke(out vec4 a, out vec4 b, out float wa, out float wb, out vec4 colour, inout float dash, inout bool keep) {
   a = projectionMatrix * viewMatrix * vec4(place - 0.5 * uLength * direction, 1);
   b = projectionMatrix * viewMatrix * vec4(place + 0.5 * uLength * direction, 1);
-  wa = 3.0; wb = 0.6;
-  colour = vec4(uColour, 0.08 + 0.72 * strength);
+  wa = 2.6; wb = 0.5;
+  colour = vec4(uColour, 0.05 + 0.7 * strength * strength);
   keep = strength > 0.004;
 }`,
 };

@@ -54,6 +54,10 @@ export class Tubes {
     this.mesh.geometry.setIndex(new BufferAttribute(indices, 1));
   }
 
+  show(): void {
+    this.mesh.visible = this.mesh.geometry.index !== null;
+  }
+
   setColour(colour: Rgb): void {
     this.mesh.material.uniforms["uColour"]!.value = colour;
   }
