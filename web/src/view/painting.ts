@@ -27,27 +27,23 @@ export function imageSize(width: number, height: number): { width: number; heigh
   return { width: Math.max(1, Math.round(width * scale)), height: Math.max(1, Math.round(height * scale)), scale };
 }
 
-/** Draws one dab from its point `from` on. A brush takes away what was there: paint does not pile up. */
+/** Draws one dab from its point `from` on. Inks are opaque: a brush takes the place of what was there. */
 export function drawDab(paper: Paper, dab: Dab, inks: Inks, from = 0): void {
-  const passes: readonly ["destination-out" | "source-over", string | CanvasPattern][] = dab.brush === "erase"
-    ? [["destination-out", "#000000"]] : [["destination-out", "#000000"], ["source-over", inks[dab.brush]]];
   const points = dab.points.slice(Math.max(0, from - 1));
   if (points.length === 0) return;
-  for (const [operation, ink] of passes) {
-    paper.globalCompositeOperation = operation;
-    paper.strokeStyle = paper.fillStyle = ink;
-    paper.lineWidth = 2 * dab.radius;
-    paper.lineCap = paper.lineJoin = "round";
-    paper.beginPath();
-    const [x, y] = points[0]!;
-    if (points.length === 1) {
-      paper.arc(x, y, dab.radius, 0, 2 * Math.PI);
-      paper.fill();
-    } else {
-      paper.moveTo(x, y);
-      for (const [px, py] of points.slice(1)) paper.lineTo(px, py);
-      paper.stroke();
-    }
+  paper.globalCompositeOperation = dab.brush === "erase" ? "destination-out" : "source-over";
+  paper.strokeStyle = paper.fillStyle = dab.brush === "erase" ? "#000000" : inks[dab.brush];
+  paper.lineWidth = 2 * dab.radius;
+  paper.lineCap = paper.lineJoin = "round";
+  paper.beginPath();
+  const [x, y] = points[0]!;
+  if (points.length === 1) {
+    paper.arc(x, y, dab.radius, 0, 2 * Math.PI);
+    paper.fill();
+  } else {
+    paper.moveTo(x, y);
+    for (const [px, py] of points.slice(1)) paper.lineTo(px, py);
+    paper.stroke();
   }
 }
 

@@ -198,7 +198,7 @@ export const cloudStrokes: StrokeKind = {
 uniform vec3 uStart, uEnd, uMiddle;
 void stroke(out vec4 a, out vec4 b, out float wa, out float wb, out vec4 colour, inout float dash, inout bool keep) {
   a = b = projectionMatrix * viewMatrix * vec4(place, 1);
-  wa = wb = sort < 0.5 ? 5.0 : sort < 1.5 ? 3.5 : 8.0;
+  wa = wb = sort < 0.5 ? 6.0 : sort < 1.5 ? 4.5 : 10.0;
   colour = sort < 0.5 ? vec4(uStart, 0.5) : sort < 1.5 ? vec4(uEnd, 0.5) : vec4(uMiddle, 0.16);
 }`,
 };
