@@ -1,12 +1,13 @@
 // A stroke as ONE cubic: least squares over both handles, the ends staying where the stroke begins and ends. Parameters start
 // as chord lengths and are moved to the feet of the points on the curve by Newton steps (Schneider, Graphics Gems I, without
-// his fixed tangents: a hand's first pixels say little of direction). At most kRounds rounds over kMostPoints points: under a
-// millisecond.
+// his fixed tangents: a hand's first pixels say little of direction). That alone creeps along loops, so it is followed by
+// Gauss-Newton steps in which points may slide along the curve (tangent distance minimisation, Wang et al. 2006), damped, and
+// taken only where they help. At most kMostPoints points and some dozens of rounds: a few milliseconds.
 import type { Vec3 } from "../api";
-import { newton, point, type Cubic } from "./bezier";
-import { along, distance, mix, scale, subtract, add, dot, length, type V } from "./vec";
+import { newton, point, velocity, type Cubic } from "./bezier";
+import { along, distance, mix, scale, subtract, add, dot, length, unit, type V } from "./vec";
 
-const kRounds = 200;
+const kRounds = 24, kSteps = 40;
 const kMostPoints = 96;
 
 /** Points at even distances along the stroke, at most `most`, the ends included. */
@@ -68,24 +69,88 @@ export function fitCubic(stroke: readonly V[]): [Vec3, Vec3, Vec3, Vec3] | null 
   const total = lengths[lengths.length - 1]!;
   let t = lengths.map((l) => l / total);
   const straight: Cubic = [first, mix(first, last, 1 / 3), mix(first, last, 2 / 3), last];
-  const errorOf = (c: Cubic, at: readonly number[]): number =>
-    points.reduce((sum, p, i) => { const d = subtract(point(c, at[i]!), p); return sum + dot(d, d); }, 0);
-  let best: Cubic = straight, least = Infinity;
-  for (let round = 0; round < kRounds; ++round) {
+  const reach = 2 * total, done = 1e-16 * total * total;
+  let best: Fit = { curve: straight, t, error: Infinity };
+  for (let round = 0; round < kRounds && best.error > done; ++round) {
     const inner = points.length > 3 ? handles(points, t) : null;
-    const curve: Cubic = inner ? tame([first, inner[0], inner[1], last], 2 * total) : straight;
-    const error = errorOf(curve, t);
-    if (error < least) best = curve;
-    if (!inner || !(error < least * (1 - 1e-7)) || error < 1e-18 * total * total) break;
-    least = error;
-    const moved = t.map((u, i) => newton(curve, points[i]!, u));
-    moved[0] = 0;
-    moved[moved.length - 1] = 1;
-    // Order is kept: a loop may not jump from one of its arms to the other.
-    for (let i = 1; i < moved.length; ++i) moved[i] = Math.max(moved[i]!, moved[i - 1]!);
-    t = moved;
+    const curve = inner ? tame([first, inner[0], inner[1], last], reach) : straight;
+    const fit = footed(curve, points, t);
+    if (fit.error < best.error) best = fit;
+    if (!inner) break;
+    t = fit.t;
   }
-  return best.map((p) => [...p]) as [Vec3, Vec3, Vec3, Vec3];
+  for (let step = 0, damping = 1e-3; step < kSteps && best.error > done && damping < 1e6; ++step) {
+    const move = slide(points, best.t, best.curve, damping);
+    if (!move) break;
+    const curve = tame([first, add(best.curve[1], move[0]), add(best.curve[2], move[1]), last], reach);
+    const fit = footed(curve, points, footed(curve, points, best.t).t);
+    const better = fit.error < best.error;
+    if (better) best = fit;
+    damping = better ? damping / 5 : damping * 8;
+  }
+  return best.curve.map((p) => [...p]) as [Vec3, Vec3, Vec3, Vec3];
+}
+
+interface Fit {
+  curve: Cubic;
+  t: number[];
+  error: number;
+}
+
+/** Parameters moved towards the feet of the points, in order: a loop may not jump from one of its arms to the other. */
+function footed(curve: Cubic, points: readonly V[], t: readonly number[]): Fit {
+  const moved = t.map((u, i) => newton(curve, points[i]!, u));
+  moved[0] = 0;
+  moved[moved.length - 1] = 1;
+  let error = 0;
+  for (let i = 0; i < moved.length; ++i) {
+    if (i > 0) moved[i] = Math.max(moved[i]!, moved[i - 1]!);
+    const off = subtract(point(curve, moved[i]!), points[i]!);
+    error += dot(off, off);
+  }
+  return { curve, t: moved, error };
+}
+
+/** How both handles shall move so that the distances of the points across the curve become least. */
+function slide(points: readonly V[], t: readonly number[], curve: Cubic, damping: number): [Vec3, Vec3] | null {
+  // Six unknowns; each row ends with its right side.
+  const rows = Array.from({ length: 6 }, () => new Float64Array(7));
+  for (let i = 1; i + 1 < points.length; ++i) {
+    const u = t[i]!, s = 1 - u, weights = [3 * s * s * u, 3 * s * u * u];
+    const tangent = unit(velocity(curve, u), [0, 0, 0]), off = subtract(points[i]!, point(curve, u));
+    for (let r = 0; r < 6; ++r) {
+      const row = rows[r]!, axis = r % 3, weight = weights[r < 3 ? 0 : 1]!, slope = tangent[axis]!;
+      for (let c = 0; c < 6; ++c) {
+        row[c]! += weight * weights[c < 3 ? 0 : 1]! * ((axis === c % 3 ? 1 : 0) - slope * tangent[c % 3]!);
+      }
+      row[6]! += weight * (off[axis]! - slope * dot(tangent, off));
+    }
+  }
+  for (let r = 0; r < 6; ++r) rows[r]![r]! += damping * (rows[r]![r]! + 1e-6);
+  const x = solve(rows);
+  return x && [[x[0]!, x[1]!, x[2]!], [x[3]!, x[4]!, x[5]!]];
+}
+
+/** Gauss with pivots; nothing where there is no one answer. */
+function solve(rows: Float64Array[]): number[] | null {
+  const n = rows.length;
+  for (let k = 0; k < n; ++k) {
+    let pivot = k;
+    for (let r = k + 1; r < n; ++r) if (Math.abs(rows[r]![k]!) > Math.abs(rows[pivot]![k]!)) pivot = r;
+    [rows[k], rows[pivot]] = [rows[pivot]!, rows[k]!];
+    if (!(Math.abs(rows[k]![k]!) > 1e-14)) return null;
+    for (let r = k + 1; r < n; ++r) {
+      const factor = rows[r]![k]! / rows[k]![k]!;
+      for (let c = k; c <= n; ++c) rows[r]![c]! -= factor * rows[k]![c]!;
+    }
+  }
+  const x = new Array<number>(n).fill(0);
+  for (let k = n - 1; k >= 0; --k) {
+    let sum = rows[k]![n]!;
+    for (let c = k + 1; c < n; ++c) sum -= rows[k]![c]! * x[c]!;
+    x[k] = sum / rows[k]![k]!;
+  }
+  return x.every(Number.isFinite) ? x : null;
 }
 
 /** Largest distance of the points from the curve, for tests and for deciding whether a stroke was a click. */
