@@ -147,11 +147,6 @@ export class Parts {
 
   /** A larger buffer, and a geometry that reads it. */
   private reserve(batch: Batch, count: number): void {
-    const { group } = this;
-    if (batch.mesh) {
-      batch.mesh.geometry.dispose();
-      group.remove(batch.mesh);
-    }
     batch.floats = new Float32Array(count * kInstanceWords);
     batch.words = new Uint32Array(batch.floats.buffer);
     batch.buffer = new InstancedInterleavedBuffer(batch.floats, kInstanceWords);
@@ -164,10 +159,15 @@ export class Parts {
       geometry.setAttribute(name, new InterleavedBufferAttribute(batch.buffer, 3, 3 * i)));
     geometry.setAttribute("extra", new InterleavedBufferAttribute(batch.buffer, 4, 12));
     geometry.instanceCount = 0;
+    if (batch.mesh) {
+      batch.mesh.geometry.dispose();
+      batch.mesh.geometry = geometry;
+      return;
+    }
     batch.mesh = new Mesh(geometry, this.material);
     batch.mesh.frustumCulled = false;
     batch.mesh.matrixAutoUpdate = false;
-    group.add(batch.mesh);
+    this.group.add(batch.mesh);
   }
 
   private clear(): void {
