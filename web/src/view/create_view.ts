@@ -323,8 +323,9 @@ export class View implements StudioView, Desk, InputTarget {
     if (width < 1 || height < 1) return;
     this.size = { width, height };
     this.stage.resize(width, height);
-    this.model.resize(width, height);
-    this.layer.resize(width, height);
+    const ratio = this.stage.renderer.getPixelRatio();
+    this.model.resize(width, height, ratio);
+    this.layer.resize(width, height, ratio);
     if (this.paint.open) this.paint.resize(width, height);
     // Drawn at once: a canvas that was given a new size is empty until then.
     this.draw(performance.now());

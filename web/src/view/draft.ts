@@ -12,12 +12,20 @@ export interface Clock {
 
 const kPatience = 400;
 
+/** Whether two values of JSON say the same; the order of keys says nothing. */
+export function same(a: unknown, b: unknown): boolean {
+  if (a === b) return true;
+  if (typeof a !== "object" || typeof b !== "object" || a === null || b === null || Array.isArray(a) !== Array.isArray(b)) return false;
+  const one = a as Record<string, unknown>, two = b as Record<string, unknown>, keys = Object.keys(one);
+  return keys.length === Object.keys(two).length && keys.every((key) => key in two && same(one[key], two[key]));
+}
+
 export class Draft {
   scene: Scene = {};
   private gesture: { id: string; label: string; before: Scene; dirty: boolean; sent: boolean } | null = null;
   private held: Scene | null = null;
   /** What went out last, until it came back. */
-  private awaited: string | null = null;
+  private awaited: Scene | null = null;
   private giveUp: (() => void) | null = null;
   private count = 0;
   private readonly session = Math.floor(Math.random() * 2 ** 32).toString(36);
@@ -31,7 +39,7 @@ export class Draft {
 
   /** The document's scene, whenever it changed. */
   receive(scene: Scene): void {
-    if (this.awaited !== null && JSON.stringify(scene) === this.awaited) this.settle();
+    if (this.awaited && same(scene, this.awaited)) this.settle();
     if (this.gesture || this.awaited !== null) {
       this.held = scene;
       return;
@@ -103,7 +111,7 @@ export class Draft {
   }
 
   private send(label: string, gesture: string | undefined, scene: Scene): void {
-    this.awaited = JSON.stringify(scene);
+    this.awaited = scene;
     this.held = null;
     this.giveUp?.();
     this.giveUp = this.clock.later(() => this.settle(), kPatience);

@@ -7,7 +7,7 @@ import type { Scene, VolumeMesh } from "../api";
 import { readObj } from "./obj";
 import type { Palette, Rgb } from "./palette";
 import { basisOf, place, placingOf, rayInto } from "./placing";
-import { hitBox, hitTriangles, type Triangles } from "./rays";
+import { chunkBoxes, hitBox, hitChunks, type Triangles } from "./rays";
 import { meshesOf } from "./scene_edits";
 import { creases, shapeOf, shapeTriangles } from "./shapes";
 import { emptyBox, grow, type Box, type V } from "./vec";
@@ -47,8 +47,20 @@ export function glass(line = 0): RawShaderMaterial {
   });
 }
 
+/** Runs a long reading in slices of a few milliseconds, so that the page does not stand still. */
+async function inSlices<T>(steps: Generator<void, T>): Promise<T> {
+  for (let until = performance.now() + 8;;) {
+    const step = steps.next();
+    if (step.done) return step.value;
+    if (performance.now() < until) continue;
+    await new Promise((done) => setTimeout(done));
+    until = performance.now() + 8;
+  }
+}
+
 interface Form {
   triangles: Triangles;
+  chunks: Float32Array;
   surface: BufferGeometry;
   edges: BufferGeometry;
   box: Box;
@@ -60,12 +72,12 @@ export function makeForm(triangles: Triangles): Form {
   surface.setIndex(new BufferAttribute(triangles.indices, 1));
   surface.computeVertexNormals();
   const edges = new BufferGeometry(), box = emptyBox();
-  const lines = triangles.indices.length < 150_000 ? creases(triangles) : new Float32Array(0);
+  const lines = triangles.indices.length < kMostCreased ? creases(triangles) : new Float32Array(0);
   edges.setAttribute("position", new BufferAttribute(lines, 3));
   edges.setAttribute("normal", new BufferAttribute(new Float32Array(lines.length), 3));
   const p = triangles.positions;
   for (let i = 0; i < p.length; i += 3) grow(box, [p[i]!, p[i + 1]!, p[i + 2]!]);
-  return { triangles, surface, edges, box };
+  return { triangles, chunks: chunkBoxes(triangles), surface, edges, box };
 }
 
 interface Ghost {
@@ -76,6 +88,8 @@ interface Ghost {
 }
 
 const kMostGhosts = 64;
+/** Corners of triangles: finding creases takes a second per million. */
+const kMostCreased = 60_000;
 
 export class Ghosts {
   readonly group = new Group();
@@ -131,7 +145,7 @@ export class Ghosts {
     this.list.forEach(({ mesh, form }, index) => {
       const ray = form && rayInto(placingOf(mesh), origin, direction);
       if (!ray || hitBox(ray.origin, ray.direction, form.box.min, form.box.max) === Infinity) return;
-      const t = hitTriangles(ray.origin, ray.direction, form.triangles);
+      const t = hitChunks(ray.origin, ray.direction, form.triangles, form.chunks);
       if (t < (best?.t ?? Infinity)) best = { index, t };
     });
     return best;
@@ -201,7 +215,7 @@ export class Ghosts {
     try {
       const answer = await fetch(url);
       if (!answer.ok) throw new Error(`the server answers ${answer.status}`);
-      this.forms.set(file, makeForm(readObj(await answer.text())));
+      this.forms.set(file, makeForm(await inSlices(readObj(await answer.text()))));
       this.changed();
     } catch (error) {
       this.forms.set(file, "failed");

@@ -79,9 +79,9 @@ export class ModelLayer {
     this.mark();
   }
 
-  resize(width: number, height: number): void {
-    this.bones.resize(width, height);
-    this.cloud.resize(width, height);
+  resize(width: number, height: number, ratio: number): void {
+    this.bones.resize(width, height, ratio);
+    this.cloud.resize(width, height, ratio);
   }
 
   setPalette(p: Palette): void {

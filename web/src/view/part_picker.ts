@@ -76,7 +76,7 @@ export class PartPicker {
     }
     for (let i = 0, w = 0; i < n; ++i, w += kInstanceWords) {
       const e = this.extents[model.words[w + 14]! & 0xffff]!;
-      const [mx, my, mz] = e.middle, [hx, hy, hz] = e.half, wide = Math.max(1, f[w + 12]!);
+      const mx = e.middle[0], my = e.middle[1], mz = e.middle[2], hx = e.half[0], hy = e.half[1], hz = e.half[2], wide = Math.max(1, f[w + 12]!);
       let square = 0;
       for (let k = 0; k < 3; ++k) {
         const x = f[w + k]!, y = f[w + 3 + k]!, z = f[w + 6 + k]!;

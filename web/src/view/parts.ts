@@ -8,9 +8,42 @@ import {
 import { kInstanceWords, kMaterialFloats, type MeshTable, type ModelMessage } from "./messages";
 import { extentOf, kProxy, type Extent } from "./part_picker";
 import { kPartsFragment, kPartsVertex, kShadowFragment, kShadowVertex } from "./parts_shader";
-import { emptyBox, type Box } from "./vec";
+import type { Box } from "./vec";
 
 const kMarkWidth = 1024, kMaterialRow = 64;
+/** Shorter runs are copied word by word: a view into the message for each would cost more than it saves. */
+const kRun = 32;
+
+/** The box around instances, in plain numbers: a hundred thousand of them take a millisecond or two. */
+class BoxOfParts {
+  private x0 = Infinity;
+  private y0 = Infinity;
+  private z0 = Infinity;
+  private x1 = -Infinity;
+  private y1 = -Infinity;
+  private z1 = -Infinity;
+
+  /** The instance whose frame is at `w`; `wide` is how much wider than its mesh a cone may be. */
+  add(f: Float32Array, w: number, { middle, half }: Extent, wide: number): void {
+    const mx = middle[0], my = middle[1], mz = middle[2], hx = half[0], hy = half[1], hz = half[2];
+    const ax = f[w]!, ay = f[w + 1]!, az = f[w + 2]!, bx = f[w + 3]!, by = f[w + 4]!, bz = f[w + 5]!;
+    const cx = f[w + 6]!, cy = f[w + 7]!, cz = f[w + 8]!, kx = wide * hx, kz = wide * hz;
+    const x = f[w + 9]! + ax * mx + bx * my + cx * mz, rx = Math.abs(ax) * kx + Math.abs(bx) * hy + Math.abs(cx) * kz;
+    const y = f[w + 10]! + ay * mx + by * my + cy * mz, ry = Math.abs(ay) * kx + Math.abs(by) * hy + Math.abs(cy) * kz;
+    const z = f[w + 11]! + az * mx + bz * my + cz * mz, rz = Math.abs(az) * kx + Math.abs(bz) * hy + Math.abs(cz) * kz;
+    if (!(Math.abs(x) + Math.abs(y) + Math.abs(z) + rx + ry + rz < Infinity)) return;
+    if (x - rx < this.x0) this.x0 = x - rx;
+    if (y - ry < this.y0) this.y0 = y - ry;
+    if (z - rz < this.z0) this.z0 = z - rz;
+    if (x + rx > this.x1) this.x1 = x + rx;
+    if (y + ry > this.y1) this.y1 = y + ry;
+    if (z + rz > this.z1) this.z1 = z + rz;
+  }
+
+  box(): Box {
+    return { min: [this.x0, this.y0, this.z0], max: [this.x1, this.y1, this.z1] };
+  }
+}
 
 /** Instances of one mesh. */
 interface Batch {
@@ -73,25 +106,25 @@ export class Parts {
       if (batch.floats.length < counts[i]! * kInstanceWords) this.reserve(batch, Math.ceil(counts[i]! * 1.3));
       batch.count = 0;
     });
-    const box = emptyBox(), { min, max } = box;
-    for (let i = 0, w = 0; i < instances; ++i, w += kInstanceWords) {
-      const kinds = words[w + 14]!, number = kinds & 0xffff, batch = batches[number]!;
-      const to = batch.count++ * kInstanceWords, target = batch.words, into = batch.floats;
-      for (let k = 0; k < 12; ++k) target[to + k] = words[w + k]!;
-      // Numbers below 2^24 go as floats: a shader may take the bits of small integers for 0.
-      into[to + 12] = table.meshes[number]!.cone ? Math.max(floats[w + 12]!, 0) : 1;
-      into[to + 13] = words[w + 13]!;
-      into[to + 14] = kinds >>> 16;
-      into[to + 15] = words[w + 15]!;
-      if (words[w + 15] === kProxy) continue;
-      const { middle: m, half: h } = this.extents[number]!, wide = Math.max(1, into[to + 12]!);
-      for (let k = 0; k < 3; ++k) {
-        const x = floats[w + k]!, y = floats[w + 3 + k]!, z = floats[w + 6 + k]!;
-        const at = floats[w + 9 + k]! + x * m[0] + y * m[1] + z * m[2];
-        const reach = wide * (Math.abs(x) * h[0] + Math.abs(z) * h[2]) + Math.abs(y) * h[1];
-        if (at - reach < min[k]!) min[k] = at - reach;
-        if (at + reach > max[k]! && at + reach < Infinity) max[k] = at + reach;
+    const box = new BoxOfParts();
+    // Runs of one mesh are copied at once: servers tend to send them so.
+    for (let i = 0; i < instances;) {
+      const number = words[i * kInstanceWords + 14]! & 0xffff, batch = batches[number]!, first = i;
+      while (++i < instances && (words[i * kInstanceWords + 14]! & 0xffff) === number);
+      const from = first * kInstanceWords, length = (i - first) * kInstanceWords, at = batch.count * kInstanceWords;
+      if (i - first > kRun) batch.words.set(words.subarray(from, from + length), at);
+      else for (let k = 0, target = batch.words; k < length; ++k) target[at + k] = words[from + k]!;
+      const cone = table.meshes[number]!.cone, extent = this.extents[number]!, into = batch.floats;
+      for (let w = first * kInstanceWords, to = batch.count * kInstanceWords; w < i * kInstanceWords; w += kInstanceWords, to += kInstanceWords) {
+        // Numbers below 2^24 go as floats: a shader may take the bits of small integers for 0.
+        const top = cone ? Math.max(floats[w + 12]!, 0) : 1, layer = words[w + 15]!;
+        into[to + 12] = top;
+        into[to + 13] = words[w + 13]!;
+        into[to + 14] = words[w + 14]! >>> 16;
+        into[to + 15] = layer;
+        if (layer !== kProxy) box.add(floats, w, extent, top > 1 ? top : 1);
       }
+      batch.count += i - first;
     }
     for (const batch of batches) {
       batch.mesh.geometry.instanceCount = batch.count;
@@ -103,7 +136,7 @@ export class Parts {
     }
     this.setMaterials(model);
     this.reserveMarks(model.genes);
-    return box;
+    return box.box();
   }
 
   /** One byte per gene; call `marksChanged` after writing. */

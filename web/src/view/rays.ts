@@ -23,10 +23,10 @@ export function hitBox(origin: V, direction: V, min: V, max: V): number {
 
 /** The nearest t > 0 at which the ray meets a triangle from either side, or Infinity (Moeller and Trumbore 1997). The upper
  *  ends of cones are scaled by `top`: x and z of what is at y. */
-export function hitTriangles(origin: V, direction: V, { positions, indices }: Triangles, top = 1): number {
+export function hitTriangles(origin: V, direction: V, { positions, indices }: Triangles, top = 1, begin = 0, end = indices.length): number {
   const [ox, oy, oz] = origin, [dx, dy, dz] = direction;
   let nearest = Infinity;
-  for (let i = 0; i < indices.length; i += 3) {
+  for (let i = begin; i < end; i += 3) {
     const a = 3 * indices[i]!, b = 3 * indices[i + 1]!, c = 3 * indices[i + 2]!;
     let ax = positions[a]!, az = positions[a + 2]!, bx = positions[b]!, bz = positions[b + 2]!;
     let cx = positions[c]!, cz = positions[c + 2]!;
@@ -47,6 +47,35 @@ export function hitTriangles(origin: V, direction: V, { positions, indices }: Tr
     if (!(v >= 0 && u + v <= 1)) continue;
     const t = (e2x * qx + e2y * qy + e2z * qz) / determinant;
     if (t > 0 && t < nearest) nearest = t;
+  }
+  return nearest;
+}
+
+const kChunk = 3 * 256;
+
+/** Boxes around every 256 triangles in their order, 6 floats each: neighbours in a file mostly are neighbours in space. */
+export function chunkBoxes({ positions, indices }: Triangles): Float32Array {
+  const boxes = new Float32Array(6 * Math.ceil(indices.length / kChunk));
+  for (let c = 0; 6 * c < boxes.length; ++c) {
+    boxes.fill(Infinity, 6 * c, 6 * c + 3).fill(-Infinity, 6 * c + 3, 6 * c + 6);
+    for (let i = c * kChunk; i < Math.min((c + 1) * kChunk, indices.length); ++i) {
+      for (let k = 0; k < 3; ++k) {
+        const x = positions[3 * indices[i]! + k]!;
+        if (x < boxes[6 * c + k]!) boxes[6 * c + k] = x;
+        if (x > boxes[6 * c + 3 + k]!) boxes[6 * c + 3 + k] = x;
+      }
+    }
+  }
+  return boxes;
+}
+
+/** As hitTriangles, for large meshes. */
+export function hitChunks(origin: V, direction: V, mesh: Triangles, boxes: Float32Array): number {
+  let nearest = Infinity;
+  for (let c = 0; 6 * c < boxes.length; ++c) {
+    const b = 6 * c, enter = hitBox(origin, direction, [boxes[b]!, boxes[b + 1]!, boxes[b + 2]!], [boxes[b + 3]!, boxes[b + 4]!, boxes[b + 5]!]);
+    if (enter >= nearest) continue;
+    nearest = Math.min(nearest, hitTriangles(origin, direction, mesh, 1, c * kChunk, Math.min((c + 1) * kChunk, mesh.indices.length)));
   }
   return nearest;
 }

@@ -50,6 +50,7 @@ void main() {
 
 const kFragment = `
 precision highp float;
+uniform float uRatio; // pixels of the screen per pixel of the page
 in vec4 vColour;
 in vec2 vAt;
 flat in vec4 vShape;
@@ -59,7 +60,7 @@ void main() {
   float radius = mix(vShape.y, vShape.z, vShape.x > 0.0 ? s / vShape.x : 0.0);
   // A head that ends in a point has a flat back, everything else a round cap.
   float off = vShape.z == 0.0 && vAt.x < 0.0 ? max(abs(vAt.y) - radius, -vAt.x) : length(vec2(vAt.x - s, vAt.y)) - radius;
-  float cover = clamp(0.5 - off, 0.0, 1.0) * min(1.0, 2.0 * radius + 0.35);
+  float cover = clamp(0.5 - off * uRatio, 0.0, 1.0) * min(1.0, 2.0 * radius + 0.35);
   if (vShape.w > 0.0 && mod(vAt.x, 2.0 * vShape.w) > vShape.w) discard;
   if (cover <= 0.003) discard;
   outColour = vec4(vColour.rgb, vColour.a * cover);
@@ -74,7 +75,7 @@ export class StrokeBatch {
     this.stride = kind.attributes.reduce((sum, [, size]) => sum + size, 0);
     const material = new RawShaderMaterial({
       glslVersion: GLSL3, vertexShader: kVertex(kind), fragmentShader: kFragment, transparent: true, blending: NormalBlending,
-      depthTest: kind.depthTest, depthWrite: false, uniforms: { uSize: { value: new Vector2(1, 1) }, ...kind.uniforms },
+      depthTest: kind.depthTest, depthWrite: false, uniforms: { uSize: { value: new Vector2(1, 1) }, uRatio: { value: 1 }, ...kind.uniforms },
     });
     this.buffer = this.makeBuffer(64);
     this.mesh = new Mesh(this.makeGeometry(), material);
@@ -104,12 +105,13 @@ export class StrokeBatch {
     return this.mesh.geometry.instanceCount;
   }
 
-  resize(width: number, height: number): void {
+  resize(width: number, height: number, ratio: number): void {
+    this.uniform("uRatio", ratio);
     (this.mesh.material.uniforms["uSize"]!.value as Vector2).set(width, height);
   }
 
   uniform(name: string, value: unknown): void {
-    this.mesh.material.uniforms[name]!.value = value as Texture;
+    this.mesh.material.uniforms[name]!.value = value;
   }
 
   dispose(): void {

@@ -11,7 +11,7 @@ import type { Stage } from "./stage";
 import { fieldStrokes, kOverlay, StrokeBatch } from "./stroke_batch";
 import { Strokes } from "./strokes";
 import { Tubes } from "./tubes";
-import { grow, type Box } from "./vec";
+import { grow, join, type Box } from "./vec";
 
 export class TargetLayer {
   readonly ghosts: Ghosts;
@@ -59,13 +59,14 @@ export class TargetLayer {
     this.overlay.set(this.strokes.data, this.strokes.count);
   }
 
-  resize(width: number, height: number): void {
-    this.field.resize(width, height);
-    this.overlay.resize(width, height);
+  resize(width: number, height: number, ratio: number): void {
+    this.field.resize(width, height, ratio);
+    this.overlay.resize(width, height, ratio);
   }
 
   addTo(box: Box, scene: Scene): void {
     for (const { points } of curvesOf(scene)) for (const p of samples(points, 12)) grow(box, p);
+    if (scene.curves?.density) join(box, scene.curves.density);
     this.ghosts.addTo(box);
   }
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Scene } from "../../src/api";
-import { Draft } from "../../src/view/draft";
+import { Draft, same } from "../../src/view/draft";
 import type { Edit } from "./fake_desk";
 
 function setup(): { draft: Draft; edits: Edit[]; frame(): void; wait(): void } {
@@ -57,6 +57,15 @@ describe("Draft", () => {
     expect(draft.scene).toEqual(seed(9));
     wait();
     expect(draft.scene).toEqual(seed(9));
+  });
+
+  it("knows its own answer whatever the order of its keys", () => {
+    const { draft } = setup();
+    draft.once("Add", { seed: 1, curves: { weight: 2, curve: [] } });
+    draft.receive({ curves: { curve: [], weight: 2 }, seed: 1 });
+    draft.receive(seed(3));
+    expect(draft.scene).toEqual(seed(3));
+    expect([same([1, { a: 2 }], [1, { a: 2 }]), same([1], { 0: 1 }), same({ a: undefined }, { b: 1 }), same(null, {})]).toEqual([true, false, false, false]);
   });
 
   it("takes the document's word when its own does not come back", () => {

@@ -9,21 +9,49 @@ import { extentOf } from "../../src/view/part_picker";
 import { creases, kShapes, shapeFile, shapeOf, shapeTriangles } from "../../src/view/shapes";
 import { clipped, kStrokeFloats, Strokes } from "../../src/view/strokes";
 import { eyeOf, project } from "../../src/view/orbit";
+import { chunkBoxes, hitChunks, hitTriangles, type Triangles } from "../../src/view/rays";
 import { tubeArrays } from "../../src/view/tubes";
 import { meshMessage, modelMessage, treeMeshes, treeModel } from "./synthetic";
 
+function obj(text: string): Triangles {
+  const steps = readObj(text);
+  for (;;) {
+    const step = steps.next();
+    if (step.done) return step.value;
+  }
+}
+
 describe("OBJ", () => {
   it("reads polygons, slashes and indices from the end", () => {
-    const mesh = readObj("# a square\nv 0 0 0\nv 1 0 0\nv 1 1 0\r\nv 0 1 0\nvt 0 0\nf 1/1 2/1/3 3//2 4\nf -1 -2 -3\ng x\n");
+    const mesh = obj("# a square\nv 0 0 0\nv 1 0 0\nv 1 1 0\r\nv 0 1 0\nvt 0 0\nf 1/1 2/1/3 3//2 4\nf -1 -2 -3\ng x\n");
     expect([...mesh.positions]).toEqual([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]);
     expect([...mesh.indices]).toEqual([0, 1, 2, 0, 2, 3, 3, 2, 1]);
   });
 
   it("names the line that is wrong", () => {
-    expect(() => readObj("v 0 0 0\nf 1 2 3")).toThrow(/line 2: a face names vertex 2 of 1/);
-    expect(() => readObj("v 0 zero 0")).toThrow(/line 1: not three numbers/);
-    expect(() => readObj("v 0 0 0\nf a b c")).toThrow(/line 2/);
-    expect(readObj("").indices).toHaveLength(0);
+    expect(() => obj("v 0 0 0\nf 1 2 3")).toThrow(/line 2: a face names vertex 2 of 1/);
+    expect(() => obj("v 0 zero 0")).toThrow(/line 1: not three numbers/);
+    expect(() => obj("v 0 0 0\nf a b c")).toThrow(/line 2/);
+    expect(obj("").indices).toHaveLength(0);
+  });
+});
+
+describe("large meshes", () => {
+  it("are hit as small ones are", () => {
+    const sphere = shapeTriangles("sphere"), boxes = chunkBoxes(sphere);
+    expect(boxes.length / 6).toBe(Math.ceil(sphere.indices.length / 768));
+    for (let i = 0; i < 40; ++i) {
+      const origin = [2 * Math.sin(i), Math.cos(2 * i), 2 * Math.cos(i)] as const;
+      const direction = [-origin[0] + 0.5 * Math.sin(3 * i), -origin[1], -origin[2] + 0.3 * Math.cos(5 * i)] as const;
+      expect(hitChunks(origin, direction, sphere, boxes)).toBe(hitTriangles(origin, direction, sphere));
+    }
+  });
+
+  it("are read in slices", () => {
+    const steps = readObj("v 0 0 0\n".repeat(2000));
+    let slices = 0;
+    while (!steps.next().done) ++slices;
+    expect(slices).toBe(4);
   });
 });
 
