@@ -93,8 +93,8 @@ export class View implements StudioView, Desk, InputTarget {
     });
     canvas.addEventListener("webglcontextrestored", () => {
       this.notices.complain("");
-      this.model.setLook(this.look);
-      this.redraw();
+      this.stage.restore();
+      this.setLook(this.look);
     });
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(element);
@@ -336,7 +336,8 @@ export class View implements StudioView, Desk, InputTarget {
     cancelAnimationFrame(this.request);
     this.request = 0;
     this.motion.step(now);
-    const eye = this.eye(), { draft, palette, selection, hover, ink, snapMark, look } = this;
+    const eye = this.eye(), { draft, palette, hover, ink, snapMark, look } = this;
+    const selection = this.tool === "paint" ? null : this.selection; // handles would be in the brush's way
     this.layer.draw({ eye, scene: draft.scene, palette, selection, hover, targets: look.targets, ink, snap: snapMark });
     const scope = this.everything();
     this.cost.calls = this.stage.render(eye, scope);

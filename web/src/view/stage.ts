@@ -65,6 +65,11 @@ export class Stage {
     }
   }
 
+  /** After the context was lost and came back; palette and casters have to be set again. */
+  restore(): void {
+    if (this.shadowTarget) this.empty(this.shadowTarget);
+  }
+
   /** Drawn after the parts, in this order. */
   add(object: Object3D, order: number): void {
     object.renderOrder = order;
@@ -131,11 +136,15 @@ export class Stage {
     depthTexture.compareFunction = LessEqualCompare;
     depthTexture.minFilter = depthTexture.magFilter = LinearFilter;
     const target = new WebGLRenderTarget(kShadowSide, kShadowSide, { depthTexture, generateMipmaps: false });
-    // Filled with "nothing in the way" before the first model: a texture that was never drawn to is none.
+    this.empty(target);
+    return target;
+  }
+
+  /** Nothing is in the way of the light: a texture that was never drawn to is none. */
+  private empty(target: WebGLRenderTarget): void {
     this.renderer.setRenderTarget(target);
     this.renderer.clear();
     this.renderer.setRenderTarget(null);
-    return target;
   }
 
   private renderShadow(box: Box): void {
