@@ -19,7 +19,8 @@ export function velocity(c: Cubic, t: number): Vec3 {
 }
 
 export function acceleration(c: Cubic, t: number): Vec3 {
-  const first = subtract(along(c[2], -2, c[1]), scale(c[0], -1)), last = subtract(along(c[3], -2, c[2]), scale(c[1], -1));
+  const first = subtract(along(c[2], -2, c[1]), scale(c[0], -1)),
+    last = subtract(along(c[3], -2, c[2]), scale(c[1], -1));
   return along(scale(first, 6 * (1 - t)), 6 * t, last);
 }
 

@@ -1,4 +1,5 @@
-// How much stands near the ground, as a soft dark patch under the model: cheap enough for every model and every renderer.
+// How much stands near the ground, as a soft dark patch under the model: cheap enough for every model and every
+// renderer.
 import { kInstanceWords, type ModelMessage } from "./messages";
 import { kProxy, type Extent } from "./part_picker";
 import type { Box } from "./vec";
@@ -12,10 +13,12 @@ export function contactSquare(box: Box): { x: number; z: number; side: number } 
   return { x: (box.min[0] + box.max[0]) / 2, z: (box.min[2] + box.max[2]) / 2, side };
 }
 
-/** Fills kContactCells^2 bytes (rows along z, each along x): 0 open .. 255 covered. Of large models every so many parts count. */
+/** Fills kContactCells^2 bytes (rows along z, each along x): 0 open .. 255 covered. Of large models every so many
+ *  parts count. */
 export function contactPatch(
   model: ModelMessage, extents: readonly Extent[], box: Box, scratch: Float32Array, patch: Uint8Array): void {
-  const n = kContactCells, { x, z, side } = contactSquare(box), height = Math.max(0.3 * (box.max[1] - box.min[1]), 1e-6);
+  const n = kContactCells, { x, z, side } = contactSquare(box),
+    height = Math.max(0.3 * (box.max[1] - box.min[1]), 1e-6);
   const stride = Math.max(1, Math.ceil(model.instances / kMostParts)), cell = side / n, f = model.floats;
   scratch.fill(0);
   for (let i = 0; i < model.instances; i += stride) {
@@ -23,7 +26,8 @@ export function contactPatch(
     if (model.words[w + 15] === kProxy) continue;
     const { middle: m, half: h } = extents[model.words[w + 14]! & 0xffff]!;
     const at = (k: number): number => f[w + 9 + k]! + f[w + k]! * m[0] + f[w + 3 + k]! * m[1] + f[w + 6 + k]! * m[2];
-    const reach = (k: number): number => Math.abs(f[w + k]!) * h[0] + Math.abs(f[w + 3 + k]!) * h[1] + Math.abs(f[w + 6 + k]!) * h[2];
+    const reach = (k: number): number => Math.abs(f[w + k]!) * h[0] + Math.abs(f[w + 3 + k]!) * h[1] +
+      Math.abs(f[w + 6 + k]!) * h[2];
     const above = Math.max(0, at(1) - reach(1));
     const rx = Math.max(reach(0), cell / 2), rz = Math.max(reach(2), cell / 2);
     const weight = stride * Math.exp(-above / height);

@@ -1,19 +1,19 @@
-// The view: puts drawing, camera, tools and keys together behind StudioView. Frames are drawn when something changed, never in a loop.
+// The view: puts drawing, camera, tools and keys together behind StudioView. Frames are drawn when something changed,
+// never in a loop.
 import type { Camera, Scene } from "../api";
-import type { Desk, Drag, Pointer, Under } from "./desk";
+import type { Desk, Under } from "./desk";
 import { Draft } from "./draft";
+import { Hands } from "./hands";
 import type { Brush, Highlight, Look, Selection, Side, StudioView, Tool, ViewHost } from "./host";
-import { Input, type InputTarget } from "./input";
-import { Keys, type Key } from "./keys";
+import { Input } from "./input";
 import { ModelLayer } from "./model_layer";
 import { Motion } from "./motion";
 import { Notices, NoView } from "./notices";
-import { cameraOf, eyeOf, framed, panned, rayThrough, snapped, wheelFactor, zoomed, type Eye, type Orbit } from "./orbit";
+import { cameraOf, eyeOf, framed, rayThrough, snapped, type Eye, type Orbit } from "./orbit";
 import type { Hover } from "./overlay";
-import { paintDrag, paintKey } from "./paint_input";
 import { PaintLayer } from "./paint_layer";
 import { kDark, kLight, type Palette } from "./palette";
-import { openContext, Stage } from "./stage";
+import { openContext, Stage, type Opened } from "./stage";
 import type { Ink } from "./stroke_placing";
 import { TargetLayer } from "./target_layer";
 import { Tools } from "./tools";
@@ -35,7 +35,7 @@ export function createView(element: HTMLElement, host: ViewHost): StudioView {
   return opened ? new View(element, host, opened) : new NoView(element);
 }
 
-export class View implements StudioView, Desk, InputTarget {
+export class View implements StudioView, Desk {
   readonly cost: Cost = { frame: 0, frames: 0, calls: 0, model: 0 };
   readonly draft: Draft;
   selection: Selection | null = null;
@@ -54,7 +54,7 @@ export class View implements StudioView, Desk, InputTarget {
   private readonly paint: PaintLayer;
   private readonly notices: Notices;
   private readonly tools: Tools;
-  private readonly keys: Keys;
+  private readonly hands: Hands;
   private readonly input: Input;
   private readonly observer: ResizeObserver;
   private fileUrl: (path: string) => string = (path) => path;
@@ -63,7 +63,7 @@ export class View implements StudioView, Desk, InputTarget {
   /** Whether the camera was moved by hand: then the first model does not move it. */
   private touched = false;
 
-  constructor(private readonly element: HTMLElement, readonly host: ViewHost, opened: NonNullable<ReturnType<typeof openContext>>) {
+  constructor(private readonly element: HTMLElement, readonly host: ViewHost, opened: Opened) {
     const { canvas, context, software } = opened;
     element.classList.add("view");
     element.style.position = "relative";
@@ -84,9 +84,9 @@ export class View implements StudioView, Desk, InputTarget {
       later: (call, milliseconds) => { const id = setTimeout(call, milliseconds); return () => clearTimeout(id); },
     }, () => this.applyScene());
     this.tools = new Tools(this);
-    this.keys = new Keys(this, () => performance.now());
     this.paint = new PaintLayer(element, host);
-    this.input = new Input(element, this);
+    this.hands = new Hands(element, this, this.tools, this.paint, (tool) => this.setTool(tool));
+    this.input = new Input(element, this.hands);
     canvas.addEventListener("webglcontextlost", (e) => {
       e.preventDefault();
       this.notices.complain("The graphics were lost; waiting for them to come back.");
@@ -153,7 +153,7 @@ export class View implements StudioView, Desk, InputTarget {
       this.motion.set(this.motion.goal);
       this.paint.start(this.size.width, this.size.height);
     }
-    this.left();
+    this.hands.left();
   }
 
   setBrush(brush: Brush, radius: number): void {
@@ -241,63 +241,6 @@ export class View implements StudioView, Desk, InputTarget {
 
   redraw(): void {
     if (this.request === 0) this.request = requestAnimationFrame((now) => this.draw(now));
-  }
-
-  // What pointers and keys do.
-
-  press(p: Pointer): Drag | null {
-    return this.tool === "paint" ? paintDrag(this.paint, p) : this.tools.press(p);
-  }
-
-  hovered(p: Pointer): void {
-    if (this.tool === "paint") return this.paint.hover(p.x, p.y);
-    const before = JSON.stringify(this.hover);
-    this.tools.hover(p);
-    if (JSON.stringify(this.hover) !== before) this.redraw();
-    this.element.style.cursor = this.hover ? (this.hover.kind === "side" ? "pointer" : "grab")
-      : this.tool === "select" ? "default" : "crosshair";
-  }
-
-  left(): void {
-    this.hover = null;
-    this.element.style.cursor = this.tool === "select" ? "default" : this.tool === "paint" ? "none" : "crosshair";
-    this.redraw();
-  }
-
-  pinch(x: number, y: number, dx: number, dy: number, factor: number): void {
-    if (this.tool === "paint") return;
-    this.orbit = zoomed(panned(this.orbit, this.eye(), dx, dy), this.eye(), factor, x, y);
-  }
-
-  wheel(x: number, y: number, e: WheelEvent): void {
-    if (this.tool !== "paint") this.orbit = zoomed(this.orbit, this.eye(), wheelFactor(e.deltaY, e.deltaMode, e.ctrlKey), x, y);
-  }
-
-  key(k: Key): boolean {
-    if (this.tool === "paint") return paintKey(this.paint, k, (keep) => this.leavePaint(keep));
-    if (k.key === "Escape") return this.escape();
-    if (k.key === "Enter") return this.tools.finish();
-    return this.keys.press(k);
-  }
-
-  dragging(drag: Drag | null): void {
-    if (drag) this.element.style.cursor = this.tool === "paint" ? "none" : "grabbing";
-    this.redraw();
-  }
-
-  private leavePaint(keep: boolean): void {
-    this.paint.finish(keep, this.camera());
-    this.setTool("select");
-    this.host.setTool("select");
-  }
-
-  /** What is half done, else the selection, else the tool. */
-  private escape(): boolean {
-    if (this.tools.cancel()) return true;
-    if (this.selection) this.select(null);
-    else if (this.tool !== "select") this.host.setTool("select");
-    else return false;
-    return true;
   }
 
   private go(to: Orbit): void {

@@ -37,7 +37,8 @@ export function hitPoint(eye: Eye, points: readonly V[], x: number, y: number, w
 
 /** An end of another curve near a pixel, or (`anywhere`) a place along one: where a bough leaves its trunk. */
 export function snapTo(
-  eye: Eye, curves: readonly Curve[], except: number, x: number, y: number, anywhere = false, width = kPickWidth): Vec3 | null {
+  eye: Eye, curves: readonly Curve[], except: number, x: number, y: number, anywhere = false,
+  width = kPickWidth): Vec3 | null {
   let best: Vec3 | null = null, least = width;
   curves.forEach(({ points }, index) => {
     if (index === except) return;

@@ -1,5 +1,5 @@
-// The scene as the view shows it: the document's, with what is being dragged. Edits go out once per animation frame under one
-// gesture; what comes back meanwhile is older than what is shown, and waits.
+// The scene as the view shows it: the document's, with what is being dragged. Edits go out once per animation frame
+// under one gesture; what comes back meanwhile is older than what is shown, and waits.
 import type { Scene } from "../api";
 import type { ViewHost } from "./host";
 
@@ -15,7 +15,8 @@ const kPatience = 400;
 /** Whether two values of JSON say the same; the order of keys says nothing. */
 export function same(a: unknown, b: unknown): boolean {
   if (a === b) return true;
-  if (typeof a !== "object" || typeof b !== "object" || a === null || b === null || Array.isArray(a) !== Array.isArray(b)) return false;
+  if (typeof a !== "object" || typeof b !== "object" || a === null || b === null ||
+    Array.isArray(a) !== Array.isArray(b)) return false;
   const one = a as Record<string, unknown>, two = b as Record<string, unknown>, keys = Object.keys(one);
   return keys.length === Object.keys(two).length && keys.every((key) => key in two && same(one[key], two[key]));
 }
@@ -31,7 +32,8 @@ export class Draft {
   private readonly session = Math.floor(Math.random() * 2 ** 32).toString(36);
 
   constructor(
-    private readonly host: Pick<ViewHost, "edit">, private readonly clock: Clock, private readonly changed: () => void) {}
+    private readonly host: Pick<ViewHost, "edit">, private readonly clock: Clock,
+      private readonly changed: () => void) {}
 
   get busy(): boolean {
     return this.gesture !== null;

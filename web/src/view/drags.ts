@@ -6,7 +6,8 @@ import { fitCubic } from "./fit_curve";
 import { dragGizmo, type GizmoHandle } from "./gizmo";
 import { atDepth, depthOf, eyeOf, panned, pixelSize, turned, zoomed } from "./orbit";
 import { placingOf } from "./placing";
-import { addCurve, addMesh, curvesOf, kMostCurves, meshesOf, movedCurve, movedPoint, setPlacing, setPoints } from "./scene_edits";
+import { addCurve, addMesh, curvesOf, kMostCurves, meshesOf, movedCurve, movedPoint, setPlacing,
+  setPoints } from "./scene_edits";
 import { boardFor, onBoard, shapeBetween, withHeight } from "./shape_drag";
 import { shapeFile, type Shape } from "./shapes";
 import { penThickness, placeStroke, type Anchor, type Ink } from "./stroke_placing";
@@ -15,7 +16,8 @@ import { subtract, tidy, tidy3, type V } from "./vec";
 const nothing = (): void => {};
 
 /** Orbits, pans (`pan`) or zooms (`zoom`); `click` is what letting go means where the pointer did not move. */
-export function cameraDrag(desk: Desk, from: Pointer, how: "orbit" | "pan" | "zoom", click: (p: Pointer) => void = nothing): Drag {
+export function cameraDrag(desk: Desk, from: Pointer, how: "orbit" | "pan" | "zoom",
+  click: (p: Pointer) => void = nothing): Drag {
   const before = desk.orbit;
   let last = from;
   return {
@@ -117,7 +119,7 @@ export function strokeDrag(desk: Desk, from: Pointer, click: (p: Pointer) => voi
       desk.snapMark = null;
       if (clicked) return click(p);
       const curves = curvesOf(desk.draft.scene);
-      if (curves.length >= kMostCurves) return desk.say(`There are ${kMostCurves} curves, which is as many as there can be`);
+      if (curves.length >= kMostCurves) return desk.say(`There are ${kMostCurves} curves, as many as there can be`);
       const surface = (x: number, y: number): V | null => desk.under(x, y)?.point ?? null;
       const points = fitCubic(placeStroke(eye, ink, start, anchorAt(p, false), surface));
       if (!points) return;
@@ -164,7 +166,8 @@ export function shapeDrag(desk: Desk, shape: Shape, from: Pointer, tall: (step: 
       const base = placingOf(meshesOf(desk.draft.scene)[index]!);
       desk.select({ kind: "mesh", index });
       tall({
-        move: (q) => desk.draft.preview(setPlacing(desk.draft.scene, index, withHeight(eyeOf(desk.orbit, eye.width, eye.height), base, q.x - p.x, q.y - p.y))),
+        move: (q) => desk.draft.preview(setPlacing(desk.draft.scene, index,
+          withHeight(eyeOf(desk.orbit, eye.width, eye.height), base, q.x - p.x, q.y - p.y))),
         finish,
         cancel: () => { desk.draft.cancel(); desk.select(null); },
       });
@@ -181,4 +184,5 @@ export interface HeightStep {
 }
 
 /** Metres that a nudge by an arrow key means at a point: a hundredth of the picture's height. */
-export const nudgeStep = (desk: Desk, at: V): number => pixelSize(desk.eye(), depthOf(desk.eye(), at)) * desk.eye().height / 100;
+export const nudgeStep = (desk: Desk, at: V): number => pixelSize(desk.eye(),
+  depthOf(desk.eye(), at)) * desk.eye().height / 100;

@@ -3,7 +3,8 @@ import type { Curve } from "../api";
 import { newton, point, samples, velocity, type Cubic } from "./bezier";
 import { distance, emptyBox, grow, isEmpty, unit } from "./vec";
 
-/** Per place of the grid 7 floats: where, direction, and strength 0..1, which falls with the distance from the curve. */
+/** Per place of the grid 7 floats: where, direction, and strength 0..1, which falls with the distance from the
+ *  curve. */
 export const kFieldFloats = 7;
 const kSamples = 16;
 
@@ -18,7 +19,8 @@ export function fieldOf(curves: readonly Curve[], places = 2400): Float32Array {
   const counts = sides.map((s) => Math.max(1, Math.round(s / cell)));
   // All curves as points, to see which part of which curve is nearest; Newton steps do the rest.
   const near = new Float64Array(curves.length * (kSamples + 1) * 3);
-  curves.forEach((curve, c) => samples(curve.points, kSamples).forEach((p, i) => near.set(p, 3 * (c * (kSamples + 1) + i))));
+  curves.forEach((curve, c) => samples(curve.points, kSamples).forEach((p, i) => near.set(p,
+    3 * (c * (kSamples + 1) + i))));
   const result = new Float32Array(counts[0]! * counts[1]! * counts[2]! * kFieldFloats);
   let at = 0;
   for (let i = 0; i < counts[0]!; ++i) {

@@ -1,8 +1,9 @@
-// A stroke as ONE cubic: least squares over both handles, the ends staying where the stroke begins and ends. Parameters start
-// as chord lengths and are moved to the feet of the points on the curve by Newton steps (Schneider, Graphics Gems I, without
-// his fixed tangents: a hand's first pixels say little of direction). That alone creeps along loops, so it is followed by
-// Gauss-Newton steps in which points may slide along the curve (tangent distance minimisation, Wang et al. 2006), damped, and
-// taken only where they help. At most kMostPoints points and some dozens of rounds: a few milliseconds.
+// A stroke as ONE cubic: least squares over both handles, the ends staying where the stroke begins and ends. Parameters
+// start as chord lengths and are moved to the feet of the points on the curve by Newton steps (Schneider, Graphics Gems
+// I, without his fixed tangents: a hand's first pixels say little of direction). That alone creeps along loops, so it
+// is followed by Gauss-Newton steps in which points may slide along the curve (tangent distance minimisation, Wang et
+// al. 2006), damped, and taken only where they help. At most kMostPoints points and some dozens of rounds: a few
+// milliseconds.
 import type { Vec3 } from "../api";
 import { newton, point, velocity, type Cubic } from "./bezier";
 import { along, distance, mix, scale, subtract, add, dot, length, unit, type V } from "./vec";

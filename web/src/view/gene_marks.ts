@@ -3,10 +3,11 @@ import type { Highlight } from "./host";
 
 export const kHighlighted = 1, kSelected = 2, kLocked = 4;
 
-/** `words`: rule and parent of each gene. A gene is marked with all that stands on it. Parents may come in any order; loops,
- *  which no model has, end. */
+/** `words`: rule and parent of each gene. A gene is marked with all that stands on it. Parents may come in any
+ *  order; loops,  which no model has, end. */
 export function markGenes(
-  words: Int32Array, rules: readonly string[], highlight: Highlight, selected: number | null, marks: Uint8Array): boolean {
+  words: Int32Array, rules: readonly string[], highlight: Highlight, selected: number | null,
+  marks: Uint8Array): boolean {
   const genes = words.length / 2;
   marks.fill(0, 0, genes);
   const rule = highlight.rule === undefined ? -1 : rules.indexOf(highlight.rule);

@@ -1,5 +1,5 @@
-// Targets as glass: meshes of volumes (blue where they are to be filled, vermilion and hatched where they are to be avoided), and
-// thick curves as tubes. Denser towards their outlines, with their creases as lines.
+// Targets as glass: meshes of volumes (blue where they are to be filled, vermilion and hatched where they are to be
+// avoided), and thick curves as tubes. Denser towards their outlines, with their creases as lines.
 import {
   BufferAttribute, BufferGeometry, DoubleSide, GLSL3, Group, LineSegments, Matrix4, Mesh, RawShaderMaterial, Vector3,
 } from "three";
@@ -42,8 +42,10 @@ void main() {
 
 export function glass(line = 0): RawShaderMaterial {
   return new RawShaderMaterial({
-    glslVersion: GLSL3, vertexShader: kVertex, fragmentShader: kFragment, transparent: true, depthWrite: false, side: DoubleSide,
-    uniforms: { uColour: { value: [1, 1, 1] as Rgb }, uHatch: { value: 0 }, uStrength: { value: 1 }, uLine: { value: line } },
+    glslVersion: GLSL3, vertexShader: kVertex, fragmentShader: kFragment, transparent: true, depthWrite: false,
+    side: DoubleSide,
+    uniforms: { uColour: { value: [1, 1, 1] as Rgb }, uHatch: { value: 0 }, uStrength: { value: 1 },
+      uLine: { value: line } },
   });
 }
 
@@ -115,7 +117,8 @@ export class Ghosts {
       }
       ghost.surface.visible = ghost.edges.visible = ghost.form !== null;
       const p = placingOf(mesh), [x, y, z] = basisOf(p);
-      const matrix = new Matrix4().makeBasis(new Vector3(...x), new Vector3(...y), new Vector3(...z)).setPosition(...p.position as [number, number, number]);
+      const matrix = new Matrix4().makeBasis(new Vector3(...x), new Vector3(...y),
+        new Vector3(...z)).setPosition(...p.position as [number, number, number]);
       for (const object of [ghost.surface, ghost.edges]) {
         object.matrix.copy(matrix);
         object.matrixWorldNeedsUpdate = true;
@@ -189,7 +192,8 @@ export class Ghosts {
 
   private paint(): void {
     this.list.forEach(({ mesh, surface, edges }, i) => {
-      const avoid = (mesh.fill ?? 1) < 0, colour = this.palette ? (avoid ? this.palette.avoid : this.palette.want) : [1, 1, 1];
+      const avoid = (mesh.fill ?? 1) < 0, colour = this.palette
+        ? (avoid ? this.palette.avoid : this.palette.want) : [1, 1, 1];
       surface.material.uniforms["uColour"]!.value = edges.material.uniforms["uColour"]!.value = colour;
       surface.material.uniforms["uHatch"]!.value = avoid ? 1 : 0;
       surface.material.uniforms["uStrength"]!.value = i === this.selected ? 1.5 : 1;

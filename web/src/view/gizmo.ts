@@ -1,5 +1,6 @@
-// Handles of a volume's mesh: arrows move along its axes, small marks between two of them in their plane, the middle in the plane
-// of the screen; knobs scale, quarter rings turn. All sizes are in pixels. Axes point to the half towards the viewer.
+// Handles of a volume's mesh: arrows move along its axes, small marks between two of them in their plane, the middle in
+// the plane of the screen; knobs scale, quarter rings turn. All sizes are in pixels. Axes point to the half towards the
+// viewer.
 import type { Vec3 } from "../api";
 import { atDepth, depthOf, pixelSize, project, rayThrough, type Eye } from "./orbit";
 import { axesOf, kLeastScale, rotated, type Placing } from "./placing";
@@ -56,7 +57,8 @@ export function gizmoHandles(eye: Eye, p: Placing): GizmoHandle[] {
   return handles;
 }
 
-const subtract2 = (a: readonly [number, number], b: readonly [number, number]): [number, number] => [a[0] - b[0], a[1] - b[1]];
+const subtract2 = (a: readonly [number, number], b: readonly [number, number]): [number, number] =>
+  [a[0] - b[0], a[1] - b[1]];
 
 /** Distance of a pixel from a path in pixels. */
 export function pathDistance(path: readonly (readonly [number, number])[], x: number, y: number): number {

@@ -1,4 +1,5 @@
-// The small cross of axes in the lower left corner, with letters made of strokes. A click on an arm looks from that side.
+// The small cross of axes in the lower left corner, with letters made of strokes. A click on an arm looks from that
+// side.
 import type { Side } from "./host";
 import type { Eye } from "./orbit";
 import type { Palette } from "./palette";

@@ -1,7 +1,8 @@
-// The ground: a disc at y = 0 with a grid in steps of ten that fades away, the key light's shadow, and a soft dark patch where
-// the model stands near it.
+// The ground: a disc at y = 0 with a grid in steps of ten that fades away, the key light's shadow, and a soft dark
+// patch where the model stands near it.
 import {
-  BufferAttribute, BufferGeometry, DataTexture, DoubleSide, GLSL3, LinearFilter, Matrix4, Mesh, RawShaderMaterial, RedFormat,
+  BufferAttribute, BufferGeometry, DataTexture, DoubleSide, GLSL3, LinearFilter, Matrix4, Mesh, RawShaderMaterial,
+  RedFormat,
   UnsignedByteType, Vector2, Vector3, Vector4, type Texture,
 } from "three";
 import { kContactCells } from "./contact";
@@ -76,7 +77,8 @@ void main() {
 
 export class Ground {
   readonly mesh: Mesh<BufferGeometry, RawShaderMaterial>;
-  private readonly contact = new DataTexture(new Uint8Array(kContactCells ** 2), kContactCells, kContactCells, RedFormat, UnsignedByteType);
+  private readonly contact = new DataTexture(new Uint8Array(kContactCells ** 2), kContactCells, kContactCells,
+    RedFormat, UnsignedByteType);
 
   constructor(shadows: boolean) {
     const geometry = new BufferGeometry();
@@ -86,12 +88,15 @@ export class Ground {
     this.contact.needsUpdate = true;
     const colour = (): { value: number[] } => ({ value: [0, 0, 0] });
     this.mesh = new Mesh(geometry, new RawShaderMaterial({
-      glslVersion: GLSL3, vertexShader: kVertex, fragmentShader: kFragment, transparent: true, depthWrite: false, side: DoubleSide,
+      glslVersion: GLSL3, vertexShader: kVertex, fragmentShader: kFragment, transparent: true, depthWrite: false,
+      side: DoubleSide,
       defines: shadows ? { SHADOWS: 1 } : {},
       uniforms: {
-        uCentre: { value: new Vector3() }, uReach: { value: 1 }, uStep: { value: 1 }, uDark: { value: 1 }, uGround: colour(),
+        uCentre: { value: new Vector3() }, uReach: { value: 1 }, uStep: { value: 1 }, uDark: { value: 1 },
+        uGround: colour(),
         uGrid: colour(), uAxisX: colour(), uAxisZ: colour(), uPatch: { value: new Vector4(0, 0, 1, 0) },
-        uContact: { value: this.contact }, uShadow: { value: null as Texture | null }, uShadowMatrix: { value: new Matrix4() },
+        uContact: { value: this.contact }, uShadow: { value: null as Texture | null },
+        uShadowMatrix: { value: new Matrix4() },
         uShadowSize: { value: new Vector2(1, 1) },
       },
     }));
@@ -112,7 +117,8 @@ export class Ground {
 
   setPalette(p: Palette, dark: boolean): void {
     Object.assign(this.mesh.material.uniforms, {
-      uGround: { value: p.ground }, uGrid: { value: p.grid }, uAxisX: { value: p.axes[0] }, uAxisZ: { value: p.axes[2] },
+      uGround: { value: p.ground }, uGrid: { value: p.grid }, uAxisX: { value: p.axes[0] },
+      uAxisZ: { value: p.axes[2] },
       uDark: { value: dark ? 0.95 : 0.75 },
     });
   }

@@ -1,4 +1,5 @@
-// A page for looking at the view by itself: a synthetic tree, some targets, and a host that keeps the scene. Not part of the studio.
+// A page for looking at the view by itself: a synthetic tree, some targets, and a host that keeps the scene. Not part
+// of the studio.
 //   view-harness.html?parts=3000&light&tool=curve&bones&field&notargets&shadows
 import { cloudMessage, meshMessage, treeMeshes, treeModel } from "../../tests/view/synthetic";
 import type { Scene } from "../api";
@@ -33,7 +34,8 @@ const host: ViewHost = {
   select: (selection) => { events.push({ select: selection }); view.setSelection(selection); },
   setTool: (tool) => { events.push({ tool }); view.setTool(tool); },
   newCurve: () => ({ distance: [0, 0, 100] }),
-  painted: (image, camera) => { events.push({ painted: image.size, type: image.type, camera }); Object.assign(window, { image }); },
+  painted: (image, camera) => { events.push({ painted: image.size, type: image.type, camera }); Object.assign(window,
+    { image }); },
   drawn: (model, milliseconds) => { events.push({ drawn: model, milliseconds }); },
 };
 
@@ -43,10 +45,12 @@ const view = new View(document.getElementById("view")!, host, opened);
 Object.assign(window, {
   view, events, scene: () => scene, treeModel, meshMessage, treeMeshes,
   cloud: (n: number) => view.setCloud(cloudMessage("Bough", Array.from({ length: n }, (_, i) =>
-    [Math.sin(i * 1.7) * (i % 37) / 14, 2 + (i % 53) / 20, Math.cos(i * 1.3) * (i % 31) / 14, i % 3] as [number, number, number, number]))),
+    [Math.sin(i * 1.7) * (i % 37) / 14, 2 + (i % 53) / 20, Math.cos(i * 1.3) * (i % 31) / 14, i % 3] as [number,
+      number, number, number]))),
 });
 view.setLook({
-  ...kLook, dark: !query.has("light"), bones: query.has("bones"), field: query.has("field"), targets: !query.has("notargets"),
+  ...kLook, dark: !query.has("light"), bones: query.has("bones"), field: query.has("field"),
+  targets: !query.has("notargets"),
 });
 if (!query.has("notargets")) view.setScene(scene, (path) => path);
 const parts = Number(query.get("parts") ?? 3000);

@@ -1,4 +1,5 @@
-// Pointer, wheel and key events of the view, as presses, drags, pinches and keys. Holds which pointers are down, nothing else.
+// Pointer, wheel and key events of the view, as presses, drags, pinches and keys. Holds which pointers are down,
+// nothing else.
 import type { Drag, Pointer } from "./desk";
 import type { Key } from "./keys";
 
@@ -75,7 +76,8 @@ export class Input {
     const all = coalesced && e.getCoalescedEvents ? e.getCoalescedEvents() : [];
     const ink = (all.length > 0 ? all : [e]).map((each) => ({ ...this.at(each), pressure: each.pressure }));
     return {
-      ...this.at(e), button: e.button, shift: e.shiftKey, ctrl: e.ctrlKey || e.metaKey, alt: e.altKey, pen: e.pointerType === "pen", ink,
+      ...this.at(e), button: e.button, shift: e.shiftKey, ctrl: e.ctrlKey || e.metaKey, alt: e.altKey,
+      pen: e.pointerType === "pen", ink,
     };
   }
 
@@ -107,7 +109,8 @@ export class Input {
     if (before && this.down.size === 2 && e.pointerType === "touch") {
       const other = [...this.down].find(([id]) => id !== e.pointerId)![1];
       const was = Math.hypot(before.x - other.x, before.y - other.y), is = Math.hypot(p.x - other.x, p.y - other.y);
-      this.target.pinch((p.x + other.x) / 2, (p.y + other.y) / 2, (p.x - before.x) / 2, (p.y - before.y) / 2, is > 8 && was > 8 ? was / is : 1);
+      this.target.pinch((p.x + other.x) / 2, (p.y + other.y) / 2, (p.x - before.x) / 2, (p.y - before.y) / 2, is > 8 &&
+        was > 8 ? was / is : 1);
     }
     if (before) this.down.set(e.pointerId, { x: p.x, y: p.y });
     if (!this.drag) {

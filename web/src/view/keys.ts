@@ -1,5 +1,5 @@
-// Keys of the view. Every tool works without a pointer: Tab goes through curves, their points and volumes, arrows move what is
-// selected or turn the camera, Insert adds what the tool makes.
+// Keys of the view. Every tool works without a pointer: Tab goes through curves, their points and volumes, arrows move
+// what is selected or turn the camera, Insert adds what the tool makes.
 import type { Curve, Vec3 } from "../api";
 import type { Desk } from "./desk";
 import { nudgeStep } from "./drags";
@@ -7,7 +7,8 @@ import type { Selection, Side } from "./host";
 import { turned, zoomed } from "./orbit";
 import { placingOf, rotated, type Placing } from "./placing";
 import {
-  addCurve, addMesh, curvesOf, kMostCurves, meshesOf, movedCurve, movedPoint, removeCurve, removeMesh, setPlacing, setPoints,
+  addCurve, addMesh, curvesOf, kMostCurves, meshesOf, movedCurve, movedPoint, removeCurve, removeMesh, setPlacing,
+  setPoints,
 } from "./scene_edits";
 import { shapeAt } from "./shape_drag";
 import { kShapes, shapeFile, type Shape } from "./shapes";
@@ -42,7 +43,8 @@ export class Keys {
     if (side) return desk.snapSide(side[k.shift ? 1 : 0]), true;
     if (k.key === "+" || k.key === "=" || k.key === "-") return this.zoom(k.key === "-" ? 1.15 : 1 / 1.15);
     const arrows: Record<string, readonly [number, number, number]> = {
-      ArrowLeft: [-1, 0, 0], ArrowRight: [1, 0, 0], ArrowUp: [0, 1, 0], ArrowDown: [0, -1, 0], PageUp: [0, 0, -1], PageDown: [0, 0, 1],
+      ArrowLeft: [-1, 0, 0], ArrowRight: [1, 0, 0], ArrowUp: [0, 1, 0], ArrowDown: [0, -1, 0], PageUp: [0, 0, -1],
+      PageDown: [0, 0, 1],
     };
     const arrow = arrows[k.key];
     const movable = (selection?.kind === "curve" || selection?.kind === "mesh") && desk.targets;
@@ -90,13 +92,15 @@ export class Keys {
 
   private move(selection: Selection, arrow: V, times: number): boolean {
     const { desk } = this, scene = desk.draft.scene, eye = desk.eye();
-    const by = (at: V): Vec3 => scale(add(add(scale(eye.right, arrow[0]), scale(eye.up, arrow[1])), scale(eye.back, arrow[2])),
+    const by = (at: V): Vec3 => scale(add(add(scale(eye.right, arrow[0]), scale(eye.up, arrow[1])),
+      scale(eye.back, arrow[2])),
       times * nudgeStep(desk, at));
     if (selection.kind === "curve") {
       const curve = curvesOf(scene)[selection.index];
       if (!curve) return false;
       const { point } = selection, grip = curve.points[point ?? 0]!;
-      const points = point === undefined ? movedCurve(curve.points, by(grip)) : movedPoint(curve.points, point, add(grip, by(grip)));
+      const points = point === undefined ? movedCurve(curve.points, by(grip))
+        : movedPoint(curve.points, point, add(grip, by(grip)));
       desk.draft.once(`Move curve ${selection.index + 1}`, setPoints(scene, selection.index, points),
         this.gesture(`curve ${selection.index} ${point}`));
       return true;
@@ -109,10 +113,12 @@ export class Keys {
   }
 
   private place(index: number, placing: Placing, what: string): void {
-    this.desk.draft.once(`${what} volume ${index + 1}`, setPlacing(this.desk.draft.scene, index, placing), this.gesture(`${what} ${index}`));
+    this.desk.draft.once(`${what} volume ${index + 1}`, setPlacing(this.desk.draft.scene, index, placing),
+      this.gesture(`${what} ${index}`));
   }
 
-  /** x, y, z make a volume longer along an axis, with shift shorter; comma and full stop scale it evenly; r turns it about y. */
+  /** x, y, z make a volume longer along an axis, with shift shorter; comma and full stop scale it evenly; r turns it
+   *  about y. */
   private reshape(index: number, k: Key): boolean {
     const mesh = meshesOf(this.desk.draft.scene)[index];
     if (!mesh) return false;
@@ -169,7 +175,8 @@ export class Keys {
     const { desk } = this, { tool } = desk, scene = desk.draft.scene, eye = desk.eye();
     if (tool === "curve" && curvesOf(scene).length < kMostCurves) {
       const size = eye.distance / 4, index = curvesOf(scene).length;
-      const points = [-1.5, -0.5, 0.5, 1.5].map((i) => tidy3(along(eye.target, i * size / 3, eye.up))) as Curve["points"];
+      const points = [-1.5, -0.5, 0.5, 1.5].map((i) =>
+        tidy3(along(eye.target, i * size / 3, eye.up))) as Curve["points"];
       desk.draft.once(`Draw curve ${index + 1}`, addCurve(scene, { ...desk.host.newCurve(), points }));
       desk.select({ kind: "curve", index });
       desk.say(`Curve ${index + 1} added`);

@@ -51,13 +51,16 @@ const kMostMeshes = 4096, kMostGenes = 2 ** 24;
 
 /** Checks letters, version and that `head` bytes are there. */
 function open(message: ArrayBuffer, letters: string, head: number): DataView {
-  if (message.byteLength < head) throw new MessageError(`${letters}: ${message.byteLength} bytes, its head has ${head}`);
-  if (message.byteLength % 4 !== 0) throw new MessageError(`${letters}: ${message.byteLength} bytes are no whole words`);
+  const size = message.byteLength;
+  if (size < head) throw new MessageError(`${letters}: ${size} bytes, its head has ${head}`);
+  if (size % 4 !== 0) throw new MessageError(`${letters}: ${size} bytes are no whole words`);
   const data = new DataView(message);
   const found = String.fromCharCode(...new Uint8Array(message, 0, 4));
   if (found !== letters) throw new MessageError(`message begins with ${JSON.stringify(found)}, not ${letters}`);
   const version = data.getUint32(4, true);
-  if (version !== kVersion) throw new MessageError(`${letters}: version ${version}; this page reads version ${kVersion}`);
+  if (version !== kVersion) {
+    throw new MessageError(`${letters}: version ${version}; this page reads version ${kVersion}`);
+  }
   return data;
 }
 
@@ -75,7 +78,8 @@ export function decodeMeshes(message: ArrayBuffer): MeshTable {
   let at = 16;
   for (let i = 0; i < count; ++i) {
     if (at + 12 > message.byteLength) throw new MessageError(`ESPG: ends before mesh ${i} of ${count}`);
-    const vertices = data.getUint32(at, true), triangles = data.getUint32(at + 4, true), kind = data.getUint32(at + 8, true);
+    const vertices = data.getUint32(at, true), triangles = data.getUint32(at + 4, true),
+      kind = data.getUint32(at + 8, true);
     if (kind > 1) throw new MessageError(`ESPG: mesh ${i} is of kind ${kind}, not 0 or 1`);
     at += 12;
     if (at + vertices * 24 + triangles * 12 > message.byteLength) {
@@ -86,7 +90,9 @@ export function decodeMeshes(message: ArrayBuffer): MeshTable {
     const indices = new Uint32Array(message, at + vertices * 24, triangles * 3);
     at += vertices * 24 + triangles * 12;
     for (const index of indices) {
-      if (index >= vertices) throw new MessageError(`ESPG: mesh ${i} has ${vertices} vertices, a triangle names ${index}`);
+      if (index >= vertices) {
+        throw new MessageError(`ESPG: mesh ${i} has ${vertices} vertices, a triangle names ${index}`);
+      }
     }
     meshes.push({ cone: kind === 1, positions, normals, indices });
   }
@@ -102,9 +108,11 @@ export function decodeModel(message: ArrayBuffer, meshes: number): ModelMessage 
   requireBytes(message, "ESPM", 32 + n * 64 + b * 32 + m * 48 + g * 8);
   if (g > kMostGenes) throw new MessageError(`ESPM: ${g} genes, at most ${kMostGenes} are drawn`);
   let at = 32;
-  const floats = new Float32Array(message, at, n * kInstanceWords), words = new Uint32Array(message, at, n * kInstanceWords);
+  const floats = new Float32Array(message, at, n * kInstanceWords),
+    words = new Uint32Array(message, at, n * kInstanceWords);
   at += n * 64;
-  const boneFloats = new Float32Array(message, at, b * kBoneWords), boneWords = new Uint32Array(message, at, b * kBoneWords);
+  const boneFloats = new Float32Array(message, at, b * kBoneWords),
+    boneWords = new Uint32Array(message, at, b * kBoneWords);
   at += b * 32;
   const materialFloats = new Float32Array(message, at, m * kMaterialFloats);
   at += m * 48;

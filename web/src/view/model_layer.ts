@@ -1,4 +1,5 @@
-// The model as it is drawn: parts, bones, the cloud of a rule, marks of genes, the patch on the ground, and what is picked.
+// The model as it is drawn: parts, bones, the cloud of a rule, marks of genes, the patch on the ground, and what is
+// picked.
 import type { CloudMessage, MeshTable, ModelMessage } from "./messages";
 import { decodeCloud, decodeMeshes, decodeModel, kBoneWords, MessageError } from "./messages";
 import { contactPatch, contactSquare, kContactCells } from "./contact";
@@ -113,7 +114,9 @@ export class ModelLayer {
 
   private setBones(model: ModelMessage): void {
     const { bones, boneFloats: f, boneWords: words } = model;
-    if (this.boneData.length < bones * kBoneWords) this.boneData = new Float32Array(Math.ceil(bones * 1.3) * kBoneWords);
+    if (this.boneData.length < bones * kBoneWords) {
+      this.boneData = new Float32Array(Math.ceil(bones * 1.3) * kBoneWords);
+    }
     const data = this.boneData;
     data.set(f);
     for (let i = 0, w = 6; i < bones; ++i, w += kBoneWords) {

@@ -13,10 +13,12 @@ export class Notices {
   constructor(parent: HTMLElement) {
     this.box.className = "view-notice";
     this.box.setAttribute("role", "status");
-    this.box.style.cssText = "position:absolute;left:50%;bottom:16px;transform:translateX(-50%);max-width:70%;padding:6px 12px;" +
+    this.box.style.cssText = "position:absolute;left:50%;bottom:16px;transform:translateX(-50%);" +
+      "max-width:70%;padding:6px 12px;" +
       "border-radius:6px;font:13px/1.4 system-ui,sans-serif;pointer-events:none;display:none";
     this.live.setAttribute("aria-live", "polite");
-    this.live.style.cssText = "position:absolute;width:1px;height:1px;overflow:hidden;clip-path:inset(50%);white-space:nowrap";
+    this.live.style.cssText =
+      "position:absolute;width:1px;height:1px;overflow:hidden;clip-path:inset(50%);white-space:nowrap";
     parent.append(this.box, this.live);
   }
 

@@ -1,11 +1,12 @@
-// Wavefront OBJ: vertices and faces, which is all that a ghost needs. Polygons are cut into fans; what is not understood is
-// passed over.
+// Wavefront OBJ: vertices and faces, which is all that a ghost needs. Polygons are cut into fans; what is not
+// understood is passed over.
 import type { Triangles } from "./rays";
 
 export const kMostTriangles = 300_000;
 const kSlice = 500;
 
-/** Throws an Error that names the line for faces that name no vertex, and for what is too large. Pauses every kSlice lines. */
+/** Throws an Error that names the line for faces that name no vertex, and for what is too large. Pauses every kSlice
+ *  lines. */
 export function* readObj(text: string): Generator<void, Triangles> {
   const positions: number[] = [], indices: number[] = [];
   let line = 0;
@@ -16,7 +17,8 @@ export function* readObj(text: string): Generator<void, Triangles> {
     if (++line % kSlice === 0) yield;
     if (row.startsWith("v ")) {
       const [x, y, z] = row.slice(2).trim().split(/\s+/).map(Number);
-      if (!Number.isFinite(x) || !Number.isFinite(y) || !Number.isFinite(z)) throw new Error(`line ${line}: not three numbers`);
+      if (!Number.isFinite(x) || !Number.isFinite(y) ||
+        !Number.isFinite(z)) throw new Error(`line ${line}: not three numbers`);
       positions.push(x!, y!, z!);
     } else if (row.startsWith("f ")) {
       const count = positions.length / 3;

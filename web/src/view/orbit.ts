@@ -1,6 +1,6 @@
 // Where the view is seen from: a camera that circles a target. All functions return a new orbit.
-// Azimuth 0 looks from +z, 90 degrees from +x; elevation goes from straight below to straight above, and what is up in the
-// picture follows from both, so that there is nothing to flip at the poles.
+// Azimuth 0 looks from +z, 90 degrees from +x; elevation goes from straight below to straight above, and what is up in
+// the picture follows from both, so that there is nothing to flip at the poles.
 import type { Camera, Vec3 } from "../api";
 import type { Side } from "./host";
 import { add, along, clamp, dot, isEmpty, mix, scale, subtract, tidy3, unit, type Box, type V } from "./vec";
@@ -112,7 +112,8 @@ export function framed(o: Orbit, box: Box, aspect: number): Orbit {
   for (let corner = 0; corner < 8; ++corner) {
     const off = subtract([corner & 1 ? box.max[0] : box.min[0], corner & 2 ? box.max[1] : box.min[1],
       corner & 4 ? box.max[2] : box.min[2]], target);
-    const wide = Math.abs(dot(off, right)) / (fill * kHalfTan * Math.max(aspect, 0.05)), high = Math.abs(dot(off, up)) / (fill * kHalfTan);
+    const wide = Math.abs(dot(off, right)) / (fill * kHalfTan * Math.max(aspect, 0.05)),
+      high = Math.abs(dot(off, up)) / (fill * kHalfTan);
     least = Math.max(least, dot(off, back) + Math.max(wide, high));
   }
   return { ...o, target, distance: clamp(least, 10 * kNearest, kFurthest) };

@@ -1,5 +1,5 @@
-// What is drawn over the model: curves with their arrow heads, points of the selected one, the gizmo, the density box, what is
-// being drawn, the gnomon. All as strokes in pixels, made anew for a frame in which something of it changed.
+// What is drawn over the model: curves with their arrow heads, points of the selected one, the gizmo, the density box,
+// what is being drawn, the gnomon. All as strokes in pixels, made anew for a frame in which something of it changed.
 import type { Scene } from "../api";
 import { samples } from "./bezier";
 import { kSegments } from "./curve_picking";
@@ -61,7 +61,8 @@ export function drawOverlay(strokes: Strokes, state: OverlayState): void {
   drawGnomon(strokes, eye, palette, hover?.kind === "side" ? hover.side : null);
 }
 
-function drawCurve(strokes: Strokes, eye: Eye, points: readonly [V, V, V, V], palette: Palette, colour: Rgb, width: number): void {
+function drawCurve(strokes: Strokes, eye: Eye, points: readonly [V, V, V, V], palette: Palette, colour: Rgb,
+  width: number): void {
   const path = samples(points, kSegments);
   strokes.path(eye, path, width + 2.6, palette.halo, 0.55);
   arrow(strokes, eye, path, width + 1.5, 4.2, palette.halo, 0.55);
@@ -72,7 +73,8 @@ function drawCurve(strokes: Strokes, eye: Eye, points: readonly [V, V, V, V], pa
 }
 
 /** A head at the end of a path, seen from where it comes along its last pixels. */
-function arrow(strokes: Strokes, eye: Eye, path: readonly Vec3[], width: number, wide: number, colour: Rgb, alpha: number): void {
+function arrow(strokes: Strokes, eye: Eye, path: readonly Vec3[], width: number, wide: number, colour: Rgb,
+  alpha: number): void {
   const tip = project(eye, path[path.length - 1]!);
   if (tip.depth <= 0) return;
   for (let i = path.length - 2; i >= 0; --i) {
@@ -80,13 +82,15 @@ function arrow(strokes: Strokes, eye: Eye, path: readonly Vec3[], width: number,
     if (p.depth <= 0 || (l < 10 && i > 0)) continue;
     if (l < 2) return;
     const head = 3.6 * width + 3;
-    strokes.line(tip.x - dx / l * head * 0.3, tip.y - dy / l * head * 0.3, tip.x + dx / l * head * 0.7, tip.y + dy / l * head * 0.7,
+    strokes.line(tip.x - dx / l * head * 0.3, tip.y - dy / l * head * 0.3, tip.x + dx / l * head * 0.7,
+      tip.y + dy / l * head * 0.7,
       wide * width, 0, colour, alpha);
     return;
   }
 }
 
-function drawChosen(strokes: Strokes, { eye, scene, palette, hover }: OverlayState, index: number, point?: number): void {
+function drawChosen(strokes: Strokes, { eye, scene, palette, hover }: OverlayState, index: number,
+  point?: number): void {
   const curve = curvesOf(scene)[index];
   if (!curve) return;
   const p = curve.points;
@@ -117,10 +121,12 @@ function drawGizmo(strokes: Strokes, handles: readonly GizmoHandle[], palette: P
   const shown = handles.filter((h) => !h.faint);
   const over = (h: GizmoHandle): boolean =>
     hover?.kind === "gizmo" && hover.handle.kind === h.kind && (h.kind === "free" || hover.handle.axis === h.axis);
-  const colourOf = (h: GizmoHandle): Rgb => (over(h) ? palette.selected : h.kind === "free" ? palette.handle : palette.axes[h.axis]!);
+  const colourOf = (h: GizmoHandle): Rgb => (over(h) ? palette.selected : h.kind === "free"
+    ? palette.handle : palette.axes[h.axis]!);
   for (const h of shown.filter((h) => h.kind === "turn")) {
     for (const [width, colour, alpha] of [[5.5, palette.halo, 0.4], [over(h) ? 4 : 2.6, colourOf(h), 0.95]] as const) {
-      for (let i = 0; i + 1 < h.path.length; ++i) strokes.line(...h.path[i]!, ...h.path[i + 1]!, width, width, colour, alpha);
+      for (let i = 0; i + 1 < h.path.length; ++i) strokes.line(...h.path[i]!, ...h.path[i + 1]!, width, width, colour,
+        alpha);
     }
   }
   for (const h of shown.filter((h) => h.kind === "move")) {

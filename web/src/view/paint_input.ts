@@ -11,7 +11,8 @@ export function paintDrag(paint: PaintLayer, p: Pointer): Drag | null {
 
 /** Arrows move the brush, with shift they paint. `leave` ends the tool, with or without what was painted. */
 export function paintKey(paint: PaintLayer, k: Key, leave: (keep: boolean) => void): boolean {
-  const arrows: Record<string, readonly [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+  const arrows: Record<string, readonly [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1],
+    ArrowDown: [0, 1] };
   const arrow = arrows[k.key];
   if (arrow) return paint.step(arrow[0], arrow[1], k.shift), true;
   if (k.ctrl && k.key.toLowerCase() === "z") return k.shift ? paint.redo() : paint.undo();

@@ -26,7 +26,8 @@ export class PaintLayer {
     this.paper = this.canvas.getContext("2d")!;
     this.canvas.className = "view-paint";
     this.canvas.style.cssText = "position:absolute;inset:0;width:100%;height:100%;pointer-events:none;opacity:.72";
-    this.cursor.style.cssText = "position:absolute;left:0;top:0;border-radius:50%;pointer-events:none;box-sizing:border-box;" +
+    this.cursor.style.cssText =
+      "position:absolute;left:0;top:0;border-radius:50%;pointer-events:none;box-sizing:border-box;" +
       "border:1.5px solid #fff;box-shadow:0 0 0 1.5px rgb(0 0 0 / .65),inset 0 0 0 1px rgb(0 0 0 / .35);display:none";
   }
 

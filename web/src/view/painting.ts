@@ -1,5 +1,5 @@
-// A silhouette as strokes of brushes, and what it looks like on a canvas: as it is seen while painting (blue wanted, vermilion and
-// dotted to be left free) and as the image that is scored (black, white, transparent).
+// A silhouette as strokes of brushes, and what it looks like on a canvas: as it is seen while painting (blue wanted,
+// vermilion and dotted to be left free) and as the image that is scored (black, white, transparent).
 import type { Brush } from "./host";
 
 export interface Dab {
@@ -10,7 +10,8 @@ export interface Dab {
 
 /** How a brush draws: what is used of a 2D context. */
 export type Paper = Pick<CanvasRenderingContext2D,
-  "clearRect" | "beginPath" | "moveTo" | "lineTo" | "arc" | "stroke" | "fill" | "lineWidth" | "lineCap" | "lineJoin" | "strokeStyle" |
+  "clearRect" | "beginPath" | "moveTo" | "lineTo" | "arc" | "stroke" | "fill" | "lineWidth" | "lineCap" | "lineJoin" |
+  "strokeStyle" |
   "fillStyle" | "globalCompositeOperation" | "setTransform">;
 
 export interface Inks {
@@ -47,7 +48,8 @@ export function drawDab(paper: Paper, dab: Dab, inks: Inks, from = 0): void {
   }
 }
 
-export function drawAll(paper: Paper, dabs: readonly Dab[], inks: Inks, width: number, height: number, scale: number): void {
+export function drawAll(paper: Paper, dabs: readonly Dab[], inks: Inks, width: number, height: number,
+  scale: number): void {
   paper.setTransform(1, 0, 0, 1, 0, 0);
   paper.globalCompositeOperation = "source-over";
   paper.clearRect(0, 0, width * scale, height * scale);

@@ -1,5 +1,6 @@
-// Colours of the view, for dark and light backgrounds. Meanings are Okabe and Ito's colours, which all eyes tell apart, and no
-// meaning rests on colour alone: ghosts to be avoided are hatched, what is selected is thicker, what is locked is striped.
+// Colours of the view, for dark and light backgrounds. Meanings are Okabe and Ito's colours, which all eyes tell apart,
+// and no meaning rests on colour alone: ghosts to be avoided are hatched, what is selected is thicker, what is locked
+// is striped.
 
 export type Rgb = readonly [number, number, number];
 

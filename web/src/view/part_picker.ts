@@ -1,5 +1,6 @@
-// Which part lies under a ray. Balls around all parts are kept (4 floats each, made at the first question after a model came);
-// those that the ray meets are tried from near to far: box, then triangles. Shared buffers, nothing is made per part.
+// Which part lies under a ray. Balls around all parts are kept (4 floats each, made at the first question after a model
+// came); those that the ray meets are tried from near to far: box, then triangles. Shared buffers, nothing is made per
+// part.
 import type { MeshData, ModelMessage } from "./messages";
 import { kInstanceWords } from "./messages";
 import { hitBox, hitTriangles } from "./rays";
@@ -76,7 +77,8 @@ export class PartPicker {
     }
     for (let i = 0, w = 0; i < n; ++i, w += kInstanceWords) {
       const e = this.extents[model.words[w + 14]! & 0xffff]!;
-      const mx = e.middle[0], my = e.middle[1], mz = e.middle[2], hx = e.half[0], hy = e.half[1], hz = e.half[2], wide = Math.max(1, f[w + 12]!);
+      const mx = e.middle[0], my = e.middle[1], mz = e.middle[2], hx = e.half[0], hy = e.half[1], hz = e.half[2],
+        wide = Math.max(1, f[w + 12]!);
       let square = 0;
       for (let k = 0; k < 3; ++k) {
         const x = f[w + k]!, y = f[w + 3 + k]!, z = f[w + 6 + k]!;
@@ -118,10 +120,12 @@ export class PartPicker {
       ((c! * i! - b! * j!) * x + (a! * j! - c! * h!) * y + (b! * h! - a! * i!) * z) / determinant,
       ((b! * g! - c! * e!) * x + (c! * d! - a! * g!) * y + (a! * e! - b! * d!) * z) / determinant,
     ];
-    const o = into(origin[0] - f[w + 9]!, origin[1] - f[w + 10]!, origin[2] - f[w + 11]!), ray = into(...direction as [number, number, number]);
+    const o = into(origin[0] - f[w + 9]!, origin[1] - f[w + 10]!, origin[2] - f[w + 11]!),
+      ray = into(...direction as [number, number, number]);
     const number = model.words[w + 14]! & 0xffff, mesh = this.meshes[number]!, { box } = this.extents[number]!;
     const top = mesh.cone ? f[w + 12]! : 1, wide = Math.max(1, top);
-    const enter = hitBox(o, ray, [box.min[0] * wide, box.min[1], box.min[2] * wide], [box.max[0] * wide, box.max[1], box.max[2] * wide]);
+    const enter = hitBox(o, ray, [box.min[0] * wide, box.min[1], box.min[2] * wide],
+      [box.max[0] * wide, box.max[1], box.max[2] * wide]);
     return enter < limit ? hitTriangles(o, ray, mesh, top) : Infinity;
   }
 

@@ -1,8 +1,9 @@
-// The model's parts: one instanced draw call per mesh of the table. A message's records are copied once, sorted by mesh, into
-// buffers that only ever grow; materials and marks of genes are small textures. Nothing is made per part.
+// The model's parts: one instanced draw call per mesh of the table. A message's records are copied once, sorted by
+// mesh, into buffers that only ever grow; materials and marks of genes are small textures. Nothing is made per part.
 import {
   BufferAttribute, DataTexture, DoubleSide, DynamicDrawUsage, FloatType, GLSL3, Group, InstancedBufferGeometry,
-  InstancedInterleavedBuffer, InterleavedBufferAttribute, Mesh, NearestFilter, RawShaderMaterial, RedFormat, RGBAFormat, UnsignedByteType,
+  InstancedInterleavedBuffer, InterleavedBufferAttribute, Mesh, NearestFilter, RawShaderMaterial, RedFormat,
+  RGBAFormat, UnsignedByteType,
   Vector2, Vector3, Matrix4, type Texture,
 } from "three";
 import { kInstanceWords, kMaterialFloats, type MeshTable, type ModelMessage } from "./messages";
@@ -71,15 +72,20 @@ export class Parts {
     this.marks = { value: texture(new Uint8Array(kMarkWidth), kMarkWidth, 1, false) };
     this.materials = texture(new Float32Array(12 * kMaterialRow), 3 * kMaterialRow, 1, true);
     this.material = new RawShaderMaterial({
-      glslVersion: GLSL3, vertexShader: kPartsVertex, fragmentShader: kPartsFragment, side: DoubleSide, defines: shadows ? { SHADOWS: 1 } : {},
+      glslVersion: GLSL3, vertexShader: kPartsVertex, fragmentShader: kPartsFragment, side: DoubleSide,
+      defines: shadows ? { SHADOWS: 1 } : {},
       uniforms: {
-        uMaterials: { value: this.materials }, uMarks: this.marks, uMarkWidth: this.markWidth, uDim: { value: 0 }, uLight: { value: 1 },
-        uKey: { value: new Vector3(0.45, 0.8, 0.4).normalize() }, uAccent: { value: [1, 0.6, 0.1] }, uLocked: { value: [0.1, 0.4, 0.9] },
-        uShadow: { value: null as Texture | null }, uShadowMatrix: { value: new Matrix4() }, uShadowSize: { value: new Vector2(1, 1) },
+        uMaterials: { value: this.materials }, uMarks: this.marks, uMarkWidth: this.markWidth, uDim: { value: 0 },
+        uLight: { value: 1 },
+        uKey: { value: new Vector3(0.45, 0.8, 0.4).normalize() }, uAccent: { value: [1, 0.6, 0.1] },
+        uLocked: { value: [0.1, 0.4, 0.9] },
+        uShadow: { value: null as Texture | null }, uShadowMatrix: { value: new Matrix4() },
+        uShadowSize: { value: new Vector2(1, 1) },
       },
     });
     this.shadowMaterial = new RawShaderMaterial({
-      glslVersion: GLSL3, vertexShader: kShadowVertex, fragmentShader: kShadowFragment, side: DoubleSide, polygonOffset: true,
+      glslVersion: GLSL3, vertexShader: kShadowVertex, fragmentShader: kShadowFragment, side: DoubleSide,
+      polygonOffset: true,
       polygonOffsetFactor: 2, polygonOffsetUnits: 4,
     });
   }
@@ -115,7 +121,7 @@ export class Parts {
       if (i - first > kRun) batch.words.set(words.subarray(from, from + length), at);
       else for (let k = 0, target = batch.words; k < length; ++k) target[at + k] = words[from + k]!;
       const cone = table.meshes[number]!.cone, extent = this.extents[number]!, into = batch.floats;
-      for (let w = first * kInstanceWords, to = batch.count * kInstanceWords; w < i * kInstanceWords; w += kInstanceWords, to += kInstanceWords) {
+      for (let w = from, to = at; w < from + length; w += kInstanceWords, to += kInstanceWords) {
         // Numbers below 2^24 go as floats: a shader may take the bits of small integers for 0.
         const top = cone ? Math.max(floats[w + 12]!, 0) : 1, layer = words[w + 15]!;
         into[to + 12] = top;
@@ -167,7 +173,8 @@ export class Parts {
       this.materials = texture(new Float32Array(12 * kMaterialRow * rows), 3 * kMaterialRow, rows, true);
       this.uniform("uMaterials", this.materials);
     }
-    (this.materials.image.data as Float32Array).set(model.materialFloats.subarray(0, model.materials * kMaterialFloats));
+    (this.materials.image.data as Float32Array).set(model.materialFloats.subarray(0,
+      model.materials * kMaterialFloats));
     this.materials.needsUpdate = true;
   }
 
@@ -212,8 +219,10 @@ export class Parts {
   }
 }
 
-function texture(data: Uint8Array<ArrayBuffer> | Float32Array<ArrayBuffer>, width: number, height: number, floats: boolean): DataTexture {
-  const result = new DataTexture(data, width, height, floats ? RGBAFormat : RedFormat, floats ? FloatType : UnsignedByteType);
+function texture(data: Uint8Array<ArrayBuffer> | Float32Array<ArrayBuffer>, width: number, height: number,
+  floats: boolean): DataTexture {
+  const result = new DataTexture(data, width, height, floats ? RGBAFormat : RedFormat, floats
+    ? FloatType : UnsignedByteType);
   result.magFilter = result.minFilter = NearestFilter;
   result.unpackAlignment = 1;
   result.needsUpdate = true;

@@ -1,5 +1,5 @@
-// GLSL of the parts: instances with frame, top, gene and material, lit like a small studio: a warm key light with soft shadows,
-// sky and ground, a faint light at the camera. Metals mirror that studio, not an image of one.
+// GLSL of the parts: instances with frame, top, gene and material, lit like a small studio: a warm key light with soft
+// shadows, sky and ground, a faint light at the camera. Metals mirror that studio, not an image of one.
 
 export const kInstanceVertex = `
 precision highp float;
@@ -19,7 +19,7 @@ vec3 worldNormal() {
   vec3 n = normal;
   // The side of a cone leans by half of what it loses in width over its height of 1.
   n.y += 0.5 * (1.0 - extra.x) * length(n.xz);
-  // Cofactors: of mirrored frames they point inwards, and so do their front faces, which is made good when both are known.
+  // Cofactors: of mirrored frames they point inwards, and so do their front faces; the fragment shader makes it good.
   vec3 cofactor = cross(frameY, frameZ) * n.x + cross(frameZ, frameX) * n.y + cross(frameX, frameY) * n.z;
   float l = length(cofactor);
   return l > 0.0 ? cofactor / l : vec3(0, 1, 0);
@@ -105,7 +105,8 @@ void main() {
   float k = 0.125 * (rough + 1.0) * (rough + 1.0);
   float gloss = a2 / (4.0 * d * d * (max(nl, 0.0) * (1.0 - k) + k) * (nv * (1.0 - k) + k));
   vec3 fresnel = f0 + (max(vec3(1.0 - rough), f0) - f0) * pow(1.0 - nv, 5.0);
-  vec3 light = diffuse + f0 * min(gloss, 40.0) * key * 0.9 + fresnel * studio(reflect(-v, n), rough) * (1.0 - 0.45 * rough);
+  vec3 light = diffuse + f0 * min(gloss, 40.0) * key * 0.9;
+  light += fresnel * studio(reflect(-v, n), rough) * (1.0 - 0.45 * rough);
   light = light * uLight + vEmission.rgb * vEmission.a;
 
   int mark = int(vSurface.z);

@@ -21,9 +21,10 @@ export function hitBox(origin: V, direction: V, min: V, max: V): number {
   return near <= far ? near : Infinity;
 }
 
-/** The nearest t > 0 at which the ray meets a triangle from either side, or Infinity (Moeller and Trumbore 1997). The upper
- *  ends of cones are scaled by `top`: x and z of what is at y. */
-export function hitTriangles(origin: V, direction: V, { positions, indices }: Triangles, top = 1, begin = 0, end = indices.length): number {
+/** The nearest t > 0 at which the ray meets a triangle from either side, or Infinity (Moeller and Trumbore 1997).
+ *  The upper  ends of cones are scaled by `top`: x and z of what is at y. */
+export function hitTriangles(origin: V, direction: V, { positions, indices }: Triangles, top = 1, begin = 0,
+  end = indices.length): number {
   const [ox, oy, oz] = origin, [dx, dy, dz] = direction;
   let nearest = Infinity;
   for (let i = begin; i < end; i += 3) {
@@ -53,7 +54,8 @@ export function hitTriangles(origin: V, direction: V, { positions, indices }: Tr
 
 const kChunk = 3 * 256;
 
-/** Boxes around every 256 triangles in their order, 6 floats each: neighbours in a file mostly are neighbours in space. */
+/** Boxes around every 256 triangles in their order, 6 floats each: neighbours in a file mostly are neighbours in
+ *  space. */
 export function chunkBoxes({ positions, indices }: Triangles): Float32Array {
   const boxes = new Float32Array(6 * Math.ceil(indices.length / kChunk));
   for (let c = 0; 6 * c < boxes.length; ++c) {
@@ -73,9 +75,11 @@ export function chunkBoxes({ positions, indices }: Triangles): Float32Array {
 export function hitChunks(origin: V, direction: V, mesh: Triangles, boxes: Float32Array): number {
   let nearest = Infinity;
   for (let c = 0; 6 * c < boxes.length; ++c) {
-    const b = 6 * c, enter = hitBox(origin, direction, [boxes[b]!, boxes[b + 1]!, boxes[b + 2]!], [boxes[b + 3]!, boxes[b + 4]!, boxes[b + 5]!]);
+    const b = 6 * c, enter = hitBox(origin, direction, [boxes[b]!, boxes[b + 1]!, boxes[b + 2]!],
+      [boxes[b + 3]!, boxes[b + 4]!, boxes[b + 5]!]);
     if (enter >= nearest) continue;
-    nearest = Math.min(nearest, hitTriangles(origin, direction, mesh, 1, c * kChunk, Math.min((c + 1) * kChunk, mesh.indices.length)));
+    nearest = Math.min(nearest, hitTriangles(origin, direction, mesh, 1, c * kChunk,
+      Math.min((c + 1) * kChunk, mesh.indices.length)));
   }
   return nearest;
 }

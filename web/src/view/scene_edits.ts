@@ -22,9 +22,11 @@ function withMeshes(scene: Scene, mesh: VolumeMesh[]): Scene {
 }
 
 export const addCurve = (scene: Scene, curve: Curve): Scene => withCurves(scene, [...curvesOf(scene), curve]);
-export const removeCurve = (scene: Scene, index: number): Scene => withCurves(scene, curvesOf(scene).filter((_, i) => i !== index));
+export const removeCurve = (scene: Scene, index: number): Scene =>
+  withCurves(scene, curvesOf(scene).filter((_, i) => i !== index));
 export const addMesh = (scene: Scene, mesh: VolumeMesh): Scene => withMeshes(scene, [...meshesOf(scene), mesh]);
-export const removeMesh = (scene: Scene, index: number): Scene => withMeshes(scene, meshesOf(scene).filter((_, i) => i !== index));
+export const removeMesh = (scene: Scene, index: number): Scene =>
+  withMeshes(scene, meshesOf(scene).filter((_, i) => i !== index));
 
 /** All points of a curve of an index; unchanged where there is none. */
 export function setPoints(scene: Scene, index: number, points: readonly [V, V, V, V]): Scene {

@@ -1,5 +1,6 @@
-// What dragging with the tools box, sphere and cylinder makes: a base on the ground, then (not for spheres) a height. Seen from the
-// side the ground is no help: there the drag is the outline in the upright plane through the target, and depth is as width.
+// What dragging with the tools box, sphere and cylinder makes: a base on the ground, then (not for spheres) a height.
+// Seen from the side the ground is no help: there the drag is the outline in the upright plane through the target, and
+// depth is as width.
 import type { Vec3 } from "../api";
 import { metresAlong, onPlane } from "./gizmo";
 import { kLeastScale, type Placing } from "./placing";
@@ -45,7 +46,8 @@ export function shapeBetween(shape: Shape, board: Board, a: V, b: V): Placing {
     return { position: [a[0], a[1] + thin / 2, a[2]], scale: [size, thin, size], rotation_deg };
   }
   const middle = mix(a, b, 0.5);
-  return { position: [middle[0], a[1] + thin / 2, middle[2]], scale: [solid(b[0] - a[0]), thin, solid(b[2] - a[2])], rotation_deg };
+  return { position: [middle[0], a[1] + thin / 2, middle[2]], scale: [solid(b[0] - a[0]), thin, solid(b[2] - a[2])],
+    rotation_deg };
 }
 
 /** The base with the height that a movement of the pointer means; below the base it grows downwards. */
@@ -61,5 +63,6 @@ export function withHeight(eye: Eye, base: Placing, dx: number, dy: number): Pla
 /** For the keyboard: a shape of a quarter of the picture's height, standing on the ground below the target. */
 export function shapeAt(eye: Eye, shape: Shape): Placing {
   const size = Number((eye.distance / 4).toPrecision(2));
-  return { position: [eye.target[0], shape === "sphere" ? Math.max(eye.target[1], size / 2) : size / 2, eye.target[2]], scale: [size, size, size], rotation_deg: [0, 0, 0] };
+  return { position: [eye.target[0], shape === "sphere" ? Math.max(eye.target[1], size / 2) : size / 2, eye.target[2]],
+    scale: [size, size, size], rotation_deg: [0, 0, 0] };
 }

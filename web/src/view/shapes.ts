@@ -59,7 +59,7 @@ export function shapeTriangles(shape: Shape): Triangles {
 function welded({ positions }: Triangles): Uint32Array {
   const numbers = new Map<string, number>(), result = new Uint32Array(positions.length / 3);
   for (let i = 0; i < result.length; ++i) {
-    const key = `${positions[3 * i]!.toFixed(5)},${positions[3 * i + 1]!.toFixed(5)},${positions[3 * i + 2]!.toFixed(5)}`;
+    const key = [0, 1, 2].map((k) => positions[3 * i + k]!.toFixed(5)).join();
     let number = numbers.get(key);
     if (number === undefined) numbers.set(key, number = i);
     result[i] = number;
@@ -77,7 +77,8 @@ export function creases(mesh: Triangles, angle = 35): Float32Array {
     if (v[0] === v[1] || v[1] === v[2] || v[2] === v[0]) continue;
     const e = [0, 1, 2].map((k) => [corner(v[1], k) - corner(v[0], k), corner(v[2], k) - corner(v[0], k)] as const);
     const n: [number, number, number] = [
-      e[1]![0] * e[2]![1] - e[2]![0] * e[1]![1], e[2]![0] * e[0]![1] - e[0]![0] * e[2]![1], e[0]![0] * e[1]![1] - e[1]![0] * e[0]![1]];
+      e[1]![0] * e[2]![1] - e[2]![0] * e[1]![1], e[2]![0] * e[0]![1] - e[0]![0] * e[2]![1],
+      e[0]![0] * e[1]![1] - e[1]![0] * e[0]![1]];
     const size = Math.hypot(...n);
     if (!(size > 0)) continue;
     n[0] /= size; n[1] /= size; n[2] /= size;

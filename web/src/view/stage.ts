@@ -1,7 +1,8 @@
-// Renderer, camera and the order of drawing: parts with the key light's shadow map, ground, glass of targets, lines over all.
-// Under software rendering there are no shadows and no antialiasing by the context; lines are smooth anyway.
+// Renderer, camera and the order of drawing: parts with the key light's shadow map, ground, glass of targets, lines
+// over all. Under software rendering there are no shadows and no antialiasing by the context; lines are smooth anyway.
 import {
-  Color, DepthTexture, LessEqualCompare, LinearFilter, Matrix4, OrthographicCamera, PerspectiveCamera, Scene, SRGBColorSpace,
+  Color, DepthTexture, LessEqualCompare, LinearFilter, Matrix4, OrthographicCamera, PerspectiveCamera, Scene,
+  SRGBColorSpace,
   UnsignedIntType, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget, type Object3D,
 } from "three";
 import { Ground } from "./ground";
@@ -12,8 +13,14 @@ import { isEmpty, type Box } from "./vec";
 
 const kShadowSide = 2048;
 
+export interface Opened {
+  canvas: HTMLCanvasElement;
+  context: WebGL2RenderingContext;
+  software: boolean;
+}
+
 /** A context on a canvas of its own, and whether the machine draws by processor. */
-export function openContext(): { canvas: HTMLCanvasElement; context: WebGL2RenderingContext; software: boolean } | null {
+export function openContext(): Opened | null {
   const create = (antialias: boolean): [HTMLCanvasElement, WebGL2RenderingContext | null] => {
     const canvas = document.createElement("canvas");
     const options = { antialias, alpha: false, powerPreference: "high-performance", stencil: false } as const;
@@ -127,7 +134,8 @@ export class Stage {
     camera.far = Math.max(radius, 30 * eye.distance, 100);
     camera.near = Math.min(Math.max(eye.distance * 0.01, camera.far * 1e-5), eye.distance * 0.3);
     camera.updateProjectionMatrix();
-    camera.matrix.makeBasis(new Vector3(...eye.right), new Vector3(...eye.up), new Vector3(...eye.back)).setPosition(...eye.position as [number, number, number]);
+    camera.matrix.makeBasis(new Vector3(...eye.right), new Vector3(...eye.up),
+      new Vector3(...eye.back)).setPosition(...eye.position as [number, number, number]);
     camera.matrixWorldNeedsUpdate = true;
   }
 

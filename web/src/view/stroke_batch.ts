@@ -1,7 +1,8 @@
-// Draws strokes: those of the overlay, given in pixels, and long lists of lines in space (bones, field, clouds), whose widths in
-// pixels follow from a rule in the shader. Instances of one quad, one draw call each.
+// Draws strokes: those of the overlay, given in pixels, and long lists of lines in space (bones, field, clouds), whose
+// widths in pixels follow from a rule in the shader. Instances of one quad, one draw call each.
 import {
-  BufferAttribute, DynamicDrawUsage, GLSL3, InstancedBufferGeometry, InstancedInterleavedBuffer, InterleavedBufferAttribute, Mesh,
+  BufferAttribute, DynamicDrawUsage, GLSL3, InstancedBufferGeometry, InstancedInterleavedBuffer,
+  InterleavedBufferAttribute, Mesh,
   NormalBlending, RawShaderMaterial, Vector2, type Texture,
 } from "three";
 
@@ -9,7 +10,8 @@ import {
 export interface StrokeKind {
   /** Attributes in order: name and number of floats. */
   attributes: readonly (readonly [string, number])[];
-  /** GLSL: sets a, b (clip space), wa, wb (pixels), colour and dash from the attributes; keep = false leaves the stroke out. */
+  /** GLSL: sets a, b (clip space), wa, wb (pixels), colour and dash from the attributes; keep = false leaves the
+   *  stroke out. */
   vertex: string;
   uniforms?: Record<string, { value: unknown }>;
   depthTest: boolean;
@@ -59,7 +61,8 @@ void main() {
   float s = clamp(vAt.x, 0.0, vShape.x);
   float radius = mix(vShape.y, vShape.z, vShape.x > 0.0 ? s / vShape.x : 0.0);
   // A head that ends in a point has a flat back, everything else a round cap.
-  float off = vShape.z == 0.0 && vAt.x < 0.0 ? max(abs(vAt.y) - radius, -vAt.x) : length(vec2(vAt.x - s, vAt.y)) - radius;
+  bool back = vShape.z == 0.0 && vAt.x < 0.0;
+  float off = back ? max(abs(vAt.y) - radius, -vAt.x) : length(vec2(vAt.x - s, vAt.y)) - radius;
   float cover = clamp(0.5 - off * uRatio, 0.0, 1.0) * min(1.0, 2.0 * radius + 0.35);
   if (vShape.w > 0.0 && mod(vAt.x, 2.0 * vShape.w) > vShape.w) discard;
   if (cover <= 0.003) discard;
@@ -74,8 +77,10 @@ export class StrokeBatch {
   constructor(private readonly kind: StrokeKind) {
     this.stride = kind.attributes.reduce((sum, [, size]) => sum + size, 0);
     const material = new RawShaderMaterial({
-      glslVersion: GLSL3, vertexShader: kVertex(kind), fragmentShader: kFragment, transparent: true, blending: NormalBlending,
-      depthTest: kind.depthTest, depthWrite: false, uniforms: { uSize: { value: new Vector2(1, 1) }, uRatio: { value: 1 }, ...kind.uniforms },
+      glslVersion: GLSL3, vertexShader: kVertex(kind), fragmentShader: kFragment, transparent: true,
+      blending: NormalBlending,
+      depthTest: kind.depthTest, depthWrite: false, uniforms: { uSize: { value: new Vector2(1, 1) },
+      uRatio: { value: 1 }, ...kind.uniforms },
     });
     this.buffer = this.makeBuffer(64);
     this.mesh = new Mesh(this.makeGeometry(), material);
@@ -156,7 +161,8 @@ void stroke(out vec4 a, out vec4 b, out float wa, out float wb, out vec4 colour,
 export const boneStrokes = (marks: { value: Texture }, markWidth: { value: number }): StrokeKind => ({
   attributes: [["from", 3], ["to", 3], ["gene", 1], ["parent", 1]],
   depthTest: false,
-  uniforms: { uMarks: marks, uMarkWidth: markWidth, uColour: { value: [1, 1, 1] }, uSelected: { value: [1, 1, 1] }, uDim: { value: 0 } },
+  uniforms: { uMarks: marks, uMarkWidth: markWidth, uColour: { value: [1, 1, 1] }, uSelected: { value: [1, 1, 1] },
+    uDim: { value: 0 } },
   vertex: `
 uniform sampler2D uMarks;
 uniform int uMarkWidth;

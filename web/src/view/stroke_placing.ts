@@ -15,11 +15,12 @@ export interface Anchor {
   point: V;
 }
 
-/** Depths change evenly along the stroke from where it starts to where it ends; an end that is held by nothing has the depth of the
- *  other, and a stroke that is held nowhere lies at the target's. `surface` says what lies under a pixel: a stroke that starts,
- *  ends and runs on a surface lies on it. */
+/** Depths change evenly along the stroke from where it starts to where it ends; an end that is held by nothing has
+ *  the depth of the  other, and a stroke that is held nowhere lies at the target's. `surface` says what lies under a
+ *  pixel: a stroke that starts,  ends and runs on a surface lies on it. */
 export function placeStroke(
-  eye: Eye, ink: readonly Ink[], start: Anchor | null, end: Anchor | null, surface: ((x: number, y: number) => V | null) | null): Vec3[] {
+  eye: Eye, ink: readonly Ink[], start: Anchor | null, end: Anchor | null,
+  surface: ((x: number, y: number) => V | null) | null): Vec3[] {
   if (ink.length === 0) return [];
   const near = eye.distance * 0.01;
   const depth = (anchor: Anchor | null): number | null => {
@@ -44,9 +45,11 @@ export function placeStroke(
 
 const kProbes = 17;
 
-/** Depth along the stroke where at least four of five probes meet the surface; those that miss take their neighbours'. */
+/** Depth along the stroke where at least four of five probes meet the surface; those that miss take their
+ *  neighbours'. */
 function surfaceDepths(
-  eye: Eye, ink: readonly Ink[], lengths: readonly number[], surface: (x: number, y: number) => V | null): ((t: number) => number) | null {
+  eye: Eye, ink: readonly Ink[], lengths: readonly number[],
+  surface: (x: number, y: number) => V | null): ((t: number) => number) | null {
   const total = lengths[lengths.length - 1]!;
   const depths: (number | null)[] = [];
   let at = 0;
@@ -64,11 +67,13 @@ function surfaceDepths(
       if (entry[0] <= k) low = entry;
       if (entry[0] >= k) { high = entry; break; }
     }
-    return high[0] > low[0] ? low[1] + (high[1] - low[1]) * Math.min(Math.max((k - low[0]) / (high[0] - low[0]), 0), 1) : low[1];
+    return high[0] > low[0] ? low[1] + (high[1] - low[1]) * Math.min(Math.max((k - low[0]) / (high[0] - low[0]), 0), 1)
+      : low[1];
   };
 }
 
-/** Radii at both ends for a pen's pressure: a thirtieth of the picture's height at full pressure, nothing below a tenth of it. */
+/** Radii at both ends for a pen's pressure: a thirtieth of the picture's height at full pressure, nothing below a
+ *  tenth of it. */
 export function penThickness(eye: Eye, ink: readonly Ink[], depth: number): [number, number] {
   const third = Math.max(1, Math.floor(ink.length / 3)), full = pixelSize(eye, depth) * eye.height / 30;
   const mean = (part: readonly Ink[]): number => part.reduce((sum, p) => sum + p.pressure, 0) / part.length;

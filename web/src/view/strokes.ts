@@ -1,5 +1,6 @@
-// Lines, arrow heads and dots of the overlay as one list in pixels: a stroke has two ends, each with its own width, and round
-// caps. A dot is a stroke without length, an arrow head one whose far end has no width. Drawn in order, by one draw call.
+// Lines, arrow heads and dots of the overlay as one list in pixels: a stroke has two ends, each with its own width, and
+// round caps. A dot is a stroke without length, an arrow head one whose far end has no width. Drawn in order, by one
+// draw call.
 import { clamp } from "./vec";
 import type { Rgb } from "./palette";
 import { kHalfTan, type Eye } from "./orbit";
@@ -55,7 +56,9 @@ export function clipped(eye: Eye, a: V, b: V): [number, number, number, number] 
   if (pd < near && qd < near) return null;
   if (pd < near) p = add(p, scale(subtract(q, p), (near - pd) / (qd - pd)));
   else if (qd < near) q = add(q, scale(subtract(p, q), (near - qd) / (pd - qd)));
-  const x = (v: V): number => eye.width / 2 + dot(v, eye.right) * eye.height / (2 * kHalfTan * Math.max(-dot(v, eye.back), near));
-  const y = (v: V): number => eye.height / 2 - dot(v, eye.up) * eye.height / (2 * kHalfTan * Math.max(-dot(v, eye.back), near));
+  const x = (v: V): number => eye.width / 2 + dot(v,
+    eye.right) * eye.height / (2 * kHalfTan * Math.max(-dot(v, eye.back), near));
+  const y = (v: V): number => eye.height / 2 - dot(v,
+    eye.up) * eye.height / (2 * kHalfTan * Math.max(-dot(v, eye.back), near));
   return [x(p), y(p), x(q), y(q)];
 }

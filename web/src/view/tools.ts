@@ -1,7 +1,8 @@
 // Which drag a press begins, what the pointer hovers over, and what the keys do.
 import type { Desk, Drag, Pointer } from "./desk";
 import { hitCurve, hitPoint } from "./curve_picking";
-import { cameraDrag, clickOnly, curveDrag, gizmoDrag, pointDrag, shapeDrag, strokeDrag, type HeightStep } from "./drags";
+import { cameraDrag, clickOnly, curveDrag, gizmoDrag, pointDrag, shapeDrag, strokeDrag,
+  type HeightStep } from "./drags";
 import { gizmoHandles, hitGizmo } from "./gizmo";
 import { hitGnomon } from "./gnomon";
 import { depthOf } from "./orbit";
@@ -111,7 +112,8 @@ export class Tools {
     const ray = rayThrough(eye, p.x, p.y);
     let depth = depthOf(eye, points[0]);
     for (let k = 0; k < 4; ++k) {
-      const reach = depth / -(ray.direction[0] * eye.back[0] + ray.direction[1] * eye.back[1] + ray.direction[2] * eye.back[2]);
+      const reach = depth / -(ray.direction[0] * eye.back[0] + ray.direction[1] * eye.back[1] +
+        ray.direction[2] * eye.back[2]);
       depth = depthOf(eye, pointAt(points, nearest(points, along(ray.origin, reach, ray.direction))));
     }
     return Math.max(depth, 1e-3 * eye.distance);

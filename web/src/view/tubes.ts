@@ -6,11 +6,17 @@ import { glass } from "./ghosts";
 import type { Rgb } from "./palette";
 import { across, add, along, cross, dot, scale, unit, type V } from "./vec";
 
+interface Tube {
+  positions: Float32Array<ArrayBuffer>;
+  normals: Float32Array<ArrayBuffer>;
+  indices: Uint32Array<ArrayBuffer>;
+}
+
 const kRings = 32, kSides = 20;
 
-/** Positions and normals of the tubes of those curves that have a thickness, and their triangles. Frames are carried along the
- *  curve, so that tubes do not twist; rings lie across it. Ends are open. */
-export function tubeArrays(curves: readonly Curve[]): { positions: Float32Array; normals: Float32Array; indices: Uint32Array } {
+/** Positions and normals of the tubes of those curves that have a thickness, and their triangles. Frames are carried
+ *  along the  curve, so that tubes do not twist; rings lie across it. Ends are open. */
+export function tubeArrays(curves: readonly Curve[]): Tube {
   const thick = curves.filter((c) => c.thickness && Math.max(...c.thickness) > 0);
   const positions: number[] = [], normals: number[] = [], indices: number[] = [];
   for (const { points, thickness } of thick) {
@@ -32,7 +38,8 @@ export function tubeArrays(curves: readonly Curve[]): { positions: Float32Array;
       }
     }
   }
-  return { positions: new Float32Array(positions), normals: new Float32Array(normals), indices: new Uint32Array(indices) };
+  return { positions: new Float32Array(positions), normals: new Float32Array(normals),
+    indices: new Uint32Array(indices) };
 }
 
 export class Tubes {

@@ -52,7 +52,8 @@ export interface Box {
 }
 
 export const emptyBox = (): Box => ({ min: [Infinity, Infinity, Infinity], max: [-Infinity, -Infinity, -Infinity] });
-export const isEmpty = (box: Box): boolean => !(box.min[0] <= box.max[0] && box.min[1] <= box.max[1] && box.min[2] <= box.max[2]);
+export const isEmpty = (box: Box): boolean => !(box.min[0] <= box.max[0] && box.min[1] <= box.max[1] &&
+  box.min[2] <= box.max[2]);
 
 /** Points that are not finite are left out. */
 export function grow(box: Box, p: V): void {

@@ -65,7 +65,8 @@ describe("Draft", () => {
     draft.receive({ curves: { curve: [], weight: 2 }, seed: 1 });
     draft.receive(seed(3));
     expect(draft.scene).toEqual(seed(3));
-    expect([same([1, { a: 2 }], [1, { a: 2 }]), same([1], { 0: 1 }), same({ a: undefined }, { b: 1 }), same(null, {})]).toEqual([true, false, false, false]);
+    expect([same([1, { a: 2 }], [1, { a: 2 }]), same([1], { 0: 1 }), same({ a: undefined }, { b: 1 }),
+      same(null, {})]).toEqual([true, false, false, false]);
   });
 
   it("takes the document's word when its own does not come back", () => {

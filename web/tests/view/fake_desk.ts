@@ -77,5 +77,6 @@ export class FakeDesk implements Desk {
 }
 
 export function pointer(x: number, y: number, more: Partial<Pointer> = {}): Pointer {
-  return { x, y, button: 0, shift: false, ctrl: false, alt: false, pen: false, ink: [{ x, y, pressure: 0.5 }], ...more };
+  return { x, y, button: 0, shift: false, ctrl: false, alt: false, pen: false, ink: [{ x, y, pressure: 0.5 }],
+    ...more };
 }

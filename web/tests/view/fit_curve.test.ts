@@ -10,7 +10,8 @@ const loop: Cubic = [[0, 0, 0], [3, 2, 0], [-2, 2, 0], [1, 0, 0]];
 
 /** Points of a curve at uneven parameters, as a hand makes them. */
 const uneven = (c: Cubic, count: number): Vec3[] =>
-  Array.from({ length: count }, (_, i) => { const u = i / (count - 1); return point(c, u + 0.12 * Math.sin(2 * Math.PI * u)); });
+  Array.from({ length: count }, (_, i) => { const u = i / (count - 1); return point(c,
+    u + 0.12 * Math.sin(2 * Math.PI * u)); });
 
 describe("Bézier curves", () => {
   it("has its ends and the direction of its handles", () => {

@@ -13,6 +13,12 @@ import { chunkBoxes, hitChunks, hitTriangles, type Triangles } from "../../src/v
 import { tubeArrays } from "../../src/view/tubes";
 import { meshMessage, modelMessage, treeMeshes, treeModel } from "./synthetic";
 
+/** What is read of a geometry of parts. */
+interface Drawn {
+  instanceCount: number;
+  attributes: { extra: { data: { array: Float32Array } } };
+}
+
 function obj(text: string): Triangles {
   const steps = readObj(text);
   for (;;) {
@@ -62,7 +68,8 @@ describe("shapes", () => {
     let volume = 0;
     for (let t = 0; t < indices.length; t += 3) {
       const [a, b, c] = [0, 1, 2].map((k) => [...positions.slice(3 * indices[t + k]!, 3 * indices[t + k]! + 3)]);
-      volume += (a![0]! * (b![1]! * c![2]! - b![2]! * c![1]!) + a![1]! * (b![2]! * c![0]! - b![0]! * c![2]!) + a![2]! * (b![0]! * c![1]! - b![1]! * c![0]!)) / 6;
+      volume += (a![0]! * (b![1]! * c![2]! - b![2]! * c![1]!) + a![1]! * (b![2]! * c![0]! - b![0]! * c![2]!) +
+        a![2]! * (b![0]! * c![1]! - b![1]! * c![0]!)) / 6;
     }
     expect(volume).toBeCloseTo({ box: 1, sphere: Math.PI / 6, cylinder: Math.PI / 4 }[shape], 1);
     expect(shapeOf(shapeFile(shape))).toBe(shape);
@@ -73,7 +80,8 @@ describe("shapes", () => {
     expect(creases(shapeTriangles("box"))).toHaveLength(12 * 6);
     expect(creases(shapeTriangles("cylinder"))).toHaveLength(2 * 48 * 6);
     expect(creases(shapeTriangles("sphere"))).toHaveLength(0);
-    expect(creases({ positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]), indices: new Uint32Array([0, 1, 2]) })).toHaveLength(18);
+    expect(creases({ positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]),
+      indices: new Uint32Array([0, 1, 2]) })).toHaveLength(18);
   });
 });
 
@@ -111,37 +119,43 @@ describe("parts", () => {
     parts.setMeshes(table);
     const big = decodeModel(treeModel(3000), 4);
     parts.setModel(big, table);
-    const counts = parts.group.children.map((m) => (m as unknown as { geometry: { instanceCount: number } }).geometry.instanceCount);
+    const geometryOf = (object: unknown): Drawn => (object as { geometry: Drawn }).geometry;
+    const counts = parts.group.children.map((mesh) => geometryOf(mesh).instanceCount);
     expect(counts).toHaveLength(4);
     expect(counts.reduce((a, b) => a + b)).toBe(big.instances);
     const before = [...parts.group.children];
     const frame = (x: number): number[] => [1, 0, 0, 0, 2, 0, 0, 0, 1, x, 1, 0];
     const small = decodeModel(modelMessage({
       instances: [
-        { frame: frame(1), mesh: 1, top: 0.5, gene: 3, material: 1, layer: 2 }, { frame: frame(2), mesh: 0, top: 7 }, { frame: frame(3), mesh: 1, top: -1 },
+        { frame: frame(1), mesh: 1, top: 0.5, gene: 3, material: 1, layer: 2 }, { frame: frame(2), mesh: 0, top: 7 },
+        { frame: frame(3), mesh: 1, top: -1 },
         { frame: frame(99), mesh: 0, layer: 1 },
       ],
-      materials: [new Array<number>(12).fill(0.25), new Array<number>(12).fill(0.5)], genes: [[0, -1], [0, 0], [0, 0], [0, 0]],
+      materials: [new Array<number>(12).fill(0.25), new Array<number>(12).fill(0.5)],
+      genes: [[0, -1], [0, 0], [0, 0], [0, 0]],
     }), 4);
     const box = parts.setModel(small, table);
     expect([...parts.group.children]).toEqual(before);
-    const cones = (before[1] as unknown as { geometry: { instanceCount: number; attributes: { extra: { data: { array: Float32Array } } } } }).geometry;
+    const cones = geometryOf(before[1]);
     expect(cones.instanceCount).toBe(2);
     expect([...cones.attributes.extra.data.array.slice(0, 16)]).toEqual([...frame(1), 0.5, 3, 1, 2]);
     expect(cones.attributes.extra.data.array[16 + 12]).toBe(0);
-    const boxes = (before[0] as typeof before[0] & { geometry: typeof cones }).geometry;
+    const boxes = geometryOf(before[0]);
     expect(boxes.attributes.extra.data.array[12]).toBe(1);
     expect(box).toEqual({ min: [0.5, 0, -0.5], max: [3.5, 2, 0.5] });
   });
 
   it("has a dark patch below what stands on the ground", () => {
-    const instances = [{ frame: [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.5, 0] }, { frame: [1, 0, 0, 0, 1, 0, 0, 0, 1, 6, 40, 0] }];
-    const model = decodeModel(modelMessage({ instances }), 4), box = { min: [-0.5, 0, -0.5], max: [6.5, 40.5, 0.5] } as const;
+    const instances = [{ frame: [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.5, 0] },
+      { frame: [1, 0, 0, 0, 1, 0, 0, 0, 1, 6, 40, 0] }];
+    const model = decodeModel(modelMessage({ instances }), 4),
+      box = { min: [-0.5, 0, -0.5], max: [6.5, 40.5, 0.5] } as const;
     const patch = new Uint8Array(kContactCells ** 2);
     contactPatch(model, table.meshes.map(extentOf), box as never, new Float32Array(kContactCells ** 2), patch);
     const { x, z, side } = contactSquare(box as never);
     const at = (px: number, pz: number): number =>
-      patch[Math.floor((pz - z) / side * kContactCells + kContactCells / 2) * kContactCells + Math.floor((px - x) / side * kContactCells + kContactCells / 2)]!;
+      patch[Math.floor((pz - z) / side * kContactCells + kContactCells / 2) * kContactCells +
+        Math.floor((px - x) / side * kContactCells + kContactCells / 2)]!;
     expect(at(0, 0)).toBeGreaterThan(60);
     expect(at(6, 0)).toBeLessThan(40);
     expect(at(3, 4)).toBe(0);
@@ -150,7 +164,8 @@ describe("parts", () => {
 
 describe("field", () => {
   it("points along the nearest curve, and fades away from it", () => {
-    const field = fieldOf([{ points: [[0, 0, 0], [0, 1, 0], [0, 2, 0], [0, 3, 0]] }, { points: [[4, 0, 0], [5, 0, 0], [6, 0, 0], [7, 0, 0]] }]);
+    const field = fieldOf([{ points: [[0, 0, 0], [0, 1, 0], [0, 2, 0], [0, 3, 0]] },
+      { points: [[4, 0, 0], [5, 0, 0], [6, 0, 0], [7, 0, 0]] }]);
     expect(field.length / kFieldFloats).toBeGreaterThan(500);
     expect(field.length / kFieldFloats).toBeLessThan(14000);
     for (let i = 0; i < field.length; i += kFieldFloats) {
@@ -167,7 +182,8 @@ describe("field", () => {
 describe("tubes", () => {
   it("are as thick as their curves say, and only there", () => {
     const line = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0]] as never;
-    const { positions, normals, indices } = tubeArrays([{ points: line, thickness: [0.5, 0.1] }, { points: line }, { points: line, thickness: [0, 0] }]);
+    const { positions, normals, indices } = tubeArrays([{ points: line, thickness: [0.5, 0.1] }, { points: line },
+      { points: line, thickness: [0, 0] }]);
     expect(Math.hypot(positions[1]!, positions[2]!)).toBeCloseTo(0.5);
     expect(Math.hypot(positions.at(-2)!, positions.at(-1)!)).toBeCloseTo(0.1);
     expect(normals).toHaveLength(positions.length);

@@ -5,7 +5,8 @@ import { Input, type InputTarget } from "../../src/view/input";
 let log: string[], element: HTMLElement, input: Input, keys: boolean;
 
 function send(type: string, x: number, y: number, more: object = {}): PointerEvent {
-  const event = new PointerEvent(type, { clientX: x, clientY: y, pointerId: 1, bubbles: true, cancelable: true, ...more });
+  const event = new PointerEvent(type, { clientX: x, clientY: y, pointerId: 1, bubbles: true, cancelable: true,
+    ...more });
   element.dispatchEvent(event);
   return event;
 }
@@ -17,13 +18,15 @@ beforeEach(() => {
   element.tabIndex = 0;
   document.body.append(element);
   const drag: Drag = {
-    move: (p) => log.push(`move ${p.x} ${p.y}`), end: (p, click) => log.push(`end ${p.x} ${p.y} ${click}`), cancel: () => log.push("cancel"),
+    move: (p) => log.push(`move ${p.x} ${p.y}`), end: (p, click) => log.push(`end ${p.x} ${p.y} ${click}`),
+    cancel: () => log.push("cancel"),
   };
   const target: InputTarget = {
     press: (p) => { log.push(`press ${p.x} ${p.y}`); return p.x < 0 ? null : drag; },
     hovered: (p) => log.push(`hover ${p.x}`), left: () => log.push("left"),
     pinch: (x, y, _dx, _dy, factor) => log.push(`pinch ${x} ${y} ${factor.toFixed(2)}`),
-    wheel: (_x, _y, e) => log.push(`wheel ${e.deltaY}`), key: (k) => { log.push(`key ${k.key}`); return keys; }, dragging: () => {},
+    wheel: (_x, _y, e) => log.push(`wheel ${e.deltaY}`), key: (k) => { log.push(`key ${k.key}`); return keys; },
+    dragging: () => {},
   };
   input = new Input(element, target);
 });

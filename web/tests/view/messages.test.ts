@@ -34,7 +34,8 @@ describe("ESPG", () => {
     expect(() => decodeMeshes(changed(message, 4, 0xffffffff))).toThrow(/ends within mesh 0/);
     expect(() => decodeMeshes(changed(message, 6, 2))).toThrow(/kind 2/);
     const vertices = 24;
-    expect(() => decodeMeshes(changed(message, 7 + vertices * 6, vertices))).toThrow(/has 24 vertices, a triangle names 24/);
+    expect(() => decodeMeshes(changed(message, 7 + vertices * 6,
+      vertices))).toThrow(/has 24 vertices, a triangle names 24/);
   });
 });
 
@@ -78,7 +79,8 @@ describe("ESPM", () => {
       expect(() => decodeModel(message.slice(0, bytes), 3), `${bytes}`).toThrow(MessageError);
     }
     expect(() => decodeModel(message.slice(0, 33), 3)).toThrow(/whole words/);
-    for (const word of [3, 4, 5, 6]) expect(() => decodeModel(changed(message, word, 0xffffffff), 3)).toThrow(/announces/);
+    for (const word of [3, 4, 5, 6]) expect(() => decodeModel(changed(message, word, 0xffffffff),
+      3)).toThrow(/announces/);
   });
 
   it("reads a large tree whole", () => {

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import {
-  atDepth, between, cameraOf, eyeOf, framed, kFovDeg, kHalfTan, kStart, panned, project, rayThrough, snapped, turned, wheelFactor, zoomed,
+  atDepth, between, cameraOf, eyeOf, framed, kFovDeg, kHalfTan, kStart, panned, project, rayThrough, snapped, turned,
+  wheelFactor, zoomed,
   type Orbit,
 } from "../../src/view/orbit";
 import { Motion } from "../../src/view/motion";
@@ -17,7 +18,8 @@ describe("orbit", () => {
     expect(middle.depth).toBeCloseTo(5);
     const front = eyeOf({ target: [0, 0, 0], distance: 2, azimuth: 0, elevation: 0 }, 1, 1);
     expect(front.position).toEqual([0, 0, 2]);
-    expect(eyeOf({ target: [0, 0, 0], distance: 2, azimuth: Math.PI / 2, elevation: 0 }, 1, 1).position[0]).toBeCloseTo(2);
+    expect(eyeOf({ target: [0, 0, 0], distance: 2, azimuth: Math.PI / 2, elevation: 0 }, 1,
+      1).position[0]).toBeCloseTo(2);
   });
 
   it.each([-Math.PI / 2, -1, 0, 1, Math.PI / 2])("has a right-handed basis at elevation %f", (elevation) => {
@@ -80,7 +82,8 @@ describe("orbit", () => {
     const away: Orbit = { ...orbit, azimuth: 3 * Math.PI - 0.1 };
     const back = snapped(away, "-z");
     expect(Math.abs(back.azimuth - away.azimuth)).toBeLessThan(0.2);
-    for (const [side, axis, sign] of [["+x", 0, 1], ["-x", 0, -1], ["+y", 1, 1], ["-y", 1, -1], ["+z", 2, 1], ["-z", 2, -1]] as const) {
+    for (const [side, axis, sign] of [["+x", 0, 1], ["-x", 0, -1], ["+y", 1, 1], ["-y", 1, -1], ["+z", 2, 1],
+      ["-z", 2, -1]] as const) {
       expect(eyeOf(snapped(orbit, side), 1, 1).back[axis]).toBeCloseTo(sign);
       expect(snapped(orbit, side).target).toEqual(orbit.target);
     }

@@ -7,9 +7,13 @@ function paper(): Paper & { log: string[] } {
   const log: string[] = [];
   const note = (name: string) => (...values: number[]): void => { log.push(`${name} ${values.join(" ")}`); };
   return {
-    log, lineWidth: 0, lineCap: "butt", lineJoin: "miter", strokeStyle: "", fillStyle: "", globalCompositeOperation: "source-over",
-    clearRect: note("clear"), beginPath: note("begin"), moveTo: note("move"), lineTo: note("line"), arc: note("arc"), setTransform: note("transform"),
-    stroke(this: Paper) { log.push(`stroke ${String(this.strokeStyle)} ${this.lineWidth} ${this.globalCompositeOperation}`); },
+    log, lineWidth: 0, lineCap: "butt", lineJoin: "miter", strokeStyle: "", fillStyle: "",
+    globalCompositeOperation: "source-over",
+    clearRect: note("clear"), beginPath: note("begin"), moveTo: note("move"), lineTo: note("line"), arc: note("arc"),
+    setTransform: note("transform"),
+    stroke(this: Paper) {
+      log.push(`stroke ${String(this.strokeStyle)} ${this.lineWidth} ${this.globalCompositeOperation}`);
+    },
     fill(this: Paper) { log.push(`fill ${String(this.fillStyle)} ${this.globalCompositeOperation}`); },
   } as unknown as Paper & { log: string[] };
 }
@@ -59,7 +63,8 @@ describe("painting", () => {
     const layer = { step: (...s: unknown[]) => steps.push(s), undo: () => true, redo: () => false } as never;
     const key = (name: string, more = {}): boolean =>
       paintKey(layer, { key: name, shift: false, ctrl: false, alt: false, ...more }, (keep) => left.push(keep));
-    expect([key("Enter"), key("Escape"), key("q"), key("z", { ctrl: true }), key("ArrowUp", { shift: true })]).toEqual([true, true, false, true, true]);
+    expect([key("Enter"), key("Escape"), key("q"), key("z", { ctrl: true }),
+      key("ArrowUp", { shift: true })]).toEqual([true, true, false, true, true]);
     expect(left).toEqual([true, false]);
     expect(steps).toEqual([[0, -1, true]]);
   });

@@ -46,7 +46,8 @@ describe("rays", () => {
 
 describe("PartPicker", () => {
   it("gives the gene of the nearest part", () => {
-    const p = picker([{ frame: cube(0, 0, -5), gene: 0 }, { frame: cube(0, 0, 0), gene: 1 }, { frame: cube(0, 3, 0), gene: 2 }]);
+    const p = picker([{ frame: cube(0, 0, -5), gene: 0 }, { frame: cube(0, 0, 0), gene: 1 },
+      { frame: cube(0, 3, 0), gene: 2 }]);
     expect(p.pick([0.1, 0.2, 10], [0, 0, -1])).toMatchObject({ gene: 1, instance: 1 });
     expect(p.pick([0.1, 0.2, 10], [0, 0, -1])!.t).toBeCloseTo(9.5);
     expect(p.pick([0.1, 0.2, -10], [0, 0, 1])).toMatchObject({ gene: 0 });
@@ -81,7 +82,8 @@ describe("PartPicker", () => {
     let hits = 0;
     for (let i = 0; i < 60; ++i) {
       const origin = [6 * Math.sin(i), 2 + Math.sin(i * 1.3), 6 * Math.cos(i)] as const;
-      const direction = unit([Math.sin(i * 2.1) * 0.8 - origin[0], 2 + Math.cos(i * 1.9) - origin[1], Math.cos(i * 2.7) * 0.8 - origin[2]]);
+      const direction = unit([Math.sin(i * 2.1) * 0.8 - origin[0], 2 + Math.cos(i * 1.9) - origin[1],
+        Math.cos(i * 2.7) * 0.8 - origin[2]]);
       let nearest = Infinity;
       for (let k = 0; k < model.instances; ++k) {
         const f = model.floats.subarray(16 * k, 16 * k + 12), mesh = table.meshes[model.words[16 * k + 14]! & 0xffff]!;
@@ -89,7 +91,8 @@ describe("PartPicker", () => {
         for (let v = 0; v < positions.length; v += 3) {
           const s = 1 + (top - 1) * (mesh.positions[v + 1]! + 0.5);
           for (let a = 0; a < 3; ++a) {
-            positions[v + a] = f[9 + a]! + f[a]! * mesh.positions[v]! * s + f[3 + a]! * mesh.positions[v + 1]! + f[6 + a]! * mesh.positions[v + 2]! * s;
+            positions[v + a] = f[9 + a]! + f[a]! * mesh.positions[v]! * s + f[3 + a]! * mesh.positions[v + 1]! +
+              f[6 + a]! * mesh.positions[v + 2]! * s;
           }
         }
         nearest = Math.min(nearest, hitTriangles(origin, direction, { positions, indices: mesh.indices }));

@@ -70,7 +70,8 @@ describe("gizmo", () => {
 
   it("moves in a plane and in that of the screen to where the pointer is", () => {
     const from = project(eye, start.position), goal = project(eye, [1.4, 2, 2.2]);
-    close(dragGizmo(eye, start, { kind: "plane", axis: 1 }, [from.x, from.y], [goal.x, goal.y], false).position, [1.4, 2, 2.2]);
+    close(dragGizmo(eye, start, { kind: "plane", axis: 1 }, [from.x, from.y], [goal.x, goal.y], false).position,
+      [1.4, 2, 2.2]);
     const free = dragGizmo(eye, start, { kind: "free", axis: 0 }, [from.x, from.y], [from.x + 50, from.y - 20], false);
     const s = project(eye, free.position);
     expect([s.x - from.x, s.y - from.y].map(Math.round)).toEqual([50, -20]);
@@ -86,7 +87,8 @@ describe("gizmo", () => {
     expect([scaled.scale[0], scaled.scale[2]]).toEqual([1, 0.5]);
     const all = dragGizmo(eye, start, handle, from, twice, true);
     expect(all.scale[0] / start.scale[0]).toBeCloseTo(all.scale[1] / start.scale[1]);
-    const back = dragGizmo(eye, start, handle, from, [centre.x - 500 * (from[0] - centre.x), centre.y - 500 * (from[1] - centre.y)], false);
+    const back = dragGizmo(eye, start, handle, from, [centre.x - 500 * (from[0] - centre.x),
+      centre.y - 500 * (from[1] - centre.y)], false);
     expect(back.scale[1]).toBeGreaterThan(0);
   });
 
@@ -96,7 +98,8 @@ describe("gizmo", () => {
       return [s.x, s.y];
     };
     expect(turnAngle(eye, start.position, [0, 1, 0], at(0), at(0.8))).toBeCloseTo(0.8);
-    expect(dragGizmo(eye, start, { kind: "turn", axis: 1 }, at(0), at(0.8), false).rotation_deg[1]).toBeCloseTo(0.8 * 180 / Math.PI);
+    expect(dragGizmo(eye, start, { kind: "turn", axis: 1 }, at(0), at(0.8),
+      false).rotation_deg[1]).toBeCloseTo(0.8 * 180 / Math.PI);
     expect(dragGizmo(eye, start, { kind: "turn", axis: 1 }, at(0), at(0.8), true).rotation_deg[1]).toBeCloseTo(45);
     const edge = eyeOf({ ...orbit, elevation: 0 }, 800, 600);
     expect(Math.abs(turnAngle(edge, start.position, [0, 1, 0], [400, 300], [460, 300]))).toBeCloseTo(1);

@@ -81,17 +81,21 @@ export interface TestModel {
 }
 
 export function modelMessage(m: TestModel): ArrayBuffer {
-  const bones = m.bones ?? [], materials = m.materials ?? [[0.5, 0.5, 0.5, 1, 0, 0, 0, 0, 0.6, 0, 0, 0]], genes = m.genes ?? [[0, -1]];
-  const w = new Writer(32 + 64 * m.instances.length + 32 * bones.length + 48 * materials.length + 8 * genes.length, "ESPM");
+  const bones = m.bones ?? [], materials = m.materials ?? [[0.5, 0.5, 0.5, 1, 0, 0, 0, 0, 0.6, 0, 0, 0]],
+    genes = m.genes ?? [[0, -1]];
+  const w = new Writer(32 + 64 * m.instances.length + 32 * bones.length + 48 * materials.length + 8 * genes.length,
+    "ESPM");
   w.u32(m.number ?? 1, m.instances.length, bones.length, materials.length, genes.length, m.table ?? 1);
-  for (const i of m.instances) w.f32(...i.frame, i.top ?? 1).u32(i.gene ?? 0, (i.mesh ?? 0) | (i.material ?? 0) << 16, i.layer ?? 0);
+  for (const i of m.instances) w.f32(...i.frame, i.top ?? 1).u32(i.gene ?? 0, (i.mesh ?? 0) | (i.material ?? 0) << 16,
+    i.layer ?? 0);
   for (const b of bones) w.f32(...b.from, ...b.to).u32(b.gene ?? 0, b.parent ?? -1);
   for (const material of materials) w.f32(...material);
   for (const [rule, parent] of genes) w.u32(rule, parent);
   return w.end();
 }
 
-export function cloudMessage(rule: string, points: readonly (readonly [number, number, number, number])[]): ArrayBuffer {
+export function cloudMessage(rule: string, points: readonly (readonly [number, number, number,
+  number])[]): ArrayBuffer {
   const name = new TextEncoder().encode(rule), padded = Math.ceil(name.length / 4) * 4;
   const w = new Writer(16 + padded + 16 * points.length, "ESPC").u32(name.length, points.length);
   for (let i = 0; i < padded; i += 4) w.u32([0, 1, 2, 3].reduce((sum, k) => sum + ((name[i + k] ?? 0) << (8 * k)), 0));
@@ -102,7 +106,8 @@ export function cloudMessage(rule: string, points: readonly (readonly [number, n
 /** Box, cone, sphere, leaf. */
 export function treeMeshes(): TestMesh[] {
   const leaf: TestMesh = {
-    positions: new Float32Array([-0.5, 0, 0, 0, -0.5, 0, 0.5, 0, 0, 0, 0.5, 0]), indices: new Uint32Array([0, 1, 2, 0, 2, 3]),
+    positions: new Float32Array([-0.5, 0, 0, 0, -0.5, 0, 0.5, 0, 0, 0, 0.5, 0]),
+    indices: new Uint32Array([0, 1, 2, 0, 2, 3]),
     normals: new Float32Array([0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1]),
   };
   return [shapeTriangles("box"), { ...cone(10), cone: true }, sphere(), leaf];
@@ -116,7 +121,8 @@ function cone(sides: number): TestMesh {
     normals.push(x, 0, z, x, 0, z);
     if (i < sides) indices.push(2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 2, 2 * i + 1, 2 * i + 3);
   }
-  return { positions: new Float32Array(positions), normals: new Float32Array(normals), indices: new Uint32Array(indices) };
+  return { positions: new Float32Array(positions), normals: new Float32Array(normals),
+    indices: new Uint32Array(indices) };
 }
 
 function sphere(): TestMesh {
@@ -139,15 +145,18 @@ export function treeModel(parts: number, number = 1, seed = 1): ArrayBuffer {
   const genes: [number, number][] = [[0, -1]];
   const queue = [{ from: [0, 0, 0], direction: [0, 1, 0], length: 1.4, radius: 0.16, gene: 0, bone: -1, level: 0 }];
   while (queue.length > 0 && instances.length < parts) {
-    const b = queue.shift()!, d = b.direction, side = norm(Math.abs(d[1]!) < 0.9 ? cross(d, [0, 1, 0]) : cross(d, [1, 0, 0]));
+    const b = queue.shift()!, d = b.direction, side = norm(Math.abs(d[1]!) < 0.9
+      ? cross(d, [0, 1, 0]) : cross(d, [1, 0, 0]));
     const other = cross(side, d), to = b.from.map((x, i) => x + d[i]! * b.length), wide = 2 * b.radius;
-    const frame = [...side.map((x) => x * wide), ...d.map((x) => x * b.length), ...other.map((x) => x * wide), ...b.from.map((x, i) => (x + to[i]!) / 2)];
+    const frame = [...side.map((x) => x * wide), ...d.map((x) => x * b.length), ...other.map((x) => x * wide),
+      ...b.from.map((x, i) => (x + to[i]!) / 2)];
     instances.push({ frame, top: 0.72, gene: b.gene, mesh: 1, material: 0 });
     bones.push({ from: b.from, to, gene: b.gene, parent: b.bone });
     const bone = bones.length - 1;
     if (b.level > 3) {
       for (let i = 0; i < 3 && instances.length < parts; ++i) {
-        const at = to.map((x) => x + (random() - 0.5) * 0.22), n = norm([random() - 0.5, random() + 0.2, random() - 0.5]);
+        const at = to.map((x) => x + (random() - 0.5) * 0.22),
+          n = norm([random() - 0.5, random() + 0.2, random() - 0.5]);
         const u = norm(cross(n, [0.3, 1, 0.2])), v = cross(n, u), size = 0.10 + 0.08 * random();
         genes.push([2, b.gene]);
         instances.push({
@@ -162,8 +171,10 @@ export function treeModel(parts: number, number = 1, seed = 1): ArrayBuffer {
       const out = side.map((x, k) => x * Math.cos(turn) + other[k]! * Math.sin(turn));
       genes.push([1, b.gene]);
       queue.push({
-        from: to, direction: norm(d.map((x, k) => x * Math.cos(lean) + out[k]! * Math.sin(lean) + (k === 1 ? 0.06 : 0))),
-        length: b.length * (0.68 + 0.16 * random()), radius: b.radius * 0.68, gene: genes.length - 1, bone, level: b.level + 1,
+        from: to, direction: norm(d.map((x, k) => x * Math.cos(lean) + out[k]! * Math.sin(lean) +
+          (k === 1 ? 0.06 : 0))),
+        length: b.length * (0.68 + 0.16 * random()), radius: b.radius * 0.68, gene: genes.length - 1, bone,
+        level: b.level + 1,
       });
     }
   }

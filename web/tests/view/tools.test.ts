@@ -15,7 +15,8 @@ import { FakeDesk, pointer } from "./fake_desk";
 const trunk: Curve = { points: [[0, 0, 0], [0, 0.7, 0], [0, 1.4, 0], [0, 2, 0]], alignment: 5 };
 const bough: Curve = { points: [[2, 0, 0], [2, 0.7, 0], [2, 1.4, 0], [2, 2, 0.5]] };
 const scene: Scene = {
-  seed: 4, curves: { blend: true, curve: [trunk, bough] }, volume: { cells: 9, mesh: [{ file: "shapes/box.obj", position: [-2, 1, 0] }] },
+  seed: 4, curves: { blend: true, curve: [trunk, bough] }, volume: { cells: 9,
+  mesh: [{ file: "shapes/box.obj", position: [-2, 1, 0] }] },
 };
 
 function at(desk: FakeDesk, p: V): [number, number] {
@@ -115,7 +116,8 @@ describe("select", () => {
   it("moves a volume by its gizmo, and looks from a side by the gnomon", () => {
     const desk = new FakeDesk(scene), tools = new Tools(desk);
     desk.selection = { kind: "mesh", index: 0 };
-    const [x, y] = gizmoHandles(desk.eye(), placingOf(meshesOf(scene)[0]!)).find((h) => h.kind === "move" && h.axis === 1)!.path[1]!;
+    const [x, y] = gizmoHandles(desk.eye(), placingOf(meshesOf(scene)[0]!)).find((h) => h.kind === "move" &&
+      h.axis === 1)!.path[1]!;
     drag(tools.press(pointer(x, y)), [[x, y - 60]]);
     const { position } = meshesOf(desk.draft.scene)[0]!;
     expect(position![1]).toBeGreaterThan(1.3);
@@ -127,7 +129,8 @@ describe("select", () => {
 });
 
 describe("curve", () => {
-  const arc = Array.from({ length: 40 }, (_, i): [number, number] => [200 + 5 * i, 300 - 80 * Math.sin(i / 39 * Math.PI)]);
+  const arc = Array.from({ length: 40 }, (_, i): [number, number] =>
+    [200 + 5 * i, 300 - 80 * Math.sin(i / 39 * Math.PI)]);
 
   it("draws on the plane through the target", () => {
     const desk = new FakeDesk(scene), tools = new Tools(desk);
@@ -312,7 +315,8 @@ describe("keys", () => {
     expect(curvesOf(desk.draft.scene)[0]).toMatchObject({ offset: 0.7 });
     desk.tool = "cylinder";
     press("n");
-    expect(meshesOf(desk.draft.scene)[0]).toMatchObject({ file: "shapes/cylinder.obj", fill: 1, scale: [2, 2, 2], position: [0, 1, 0] });
+    expect(meshesOf(desk.draft.scene)[0]).toMatchObject({ file: "shapes/cylinder.obj", fill: 1, scale: [2, 2, 2],
+      position: [0, 1, 0] });
     press("y");
     expect(meshesOf(desk.draft.scene)[0]!.scale).toEqual([2, 2.2, 2]);
     press("r");
@@ -330,6 +334,7 @@ describe("keys", () => {
     expect(desk.sides).toEqual(["+x", "-x"]);
     expect(desk.frames).toBe(1);
     expect(desk.orbit.distance).toBeLessThan(far);
-    expect([press("s", { ctrl: true }), press("q"), press("z", { ctrl: true }), press("ArrowLeft", { alt: true })]).toEqual([false, false, false, false]);
+    expect([press("s", { ctrl: true }), press("q"), press("z", { ctrl: true }),
+      press("ArrowLeft", { alt: true })]).toEqual([false, false, false, false]);
   });
 });
