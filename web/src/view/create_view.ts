@@ -78,7 +78,7 @@ export class View implements StudioView, Desk {
     this.notices = new Notices(element);
     this.stage = new Stage(canvas, context, software);
     this.model = new ModelLayer(this.stage);
-    this.layer = new TargetLayer(this.stage, () => this.applyScene(), (message) => this.notices.complain(message));
+    this.layer = new TargetLayer(this.stage, () => this.applyScene(), (message) => this.notices.complain(message, 8000));
     this.draft = new Draft(host, {
       frame: (call) => void requestAnimationFrame(call),
       later: (call, milliseconds) => { const id = setTimeout(call, milliseconds); return () => clearTimeout(id); },
@@ -189,7 +189,7 @@ export class View implements StudioView, Desk {
     this.observer.disconnect();
     this.input.dispose();
     this.paint.finish(false, this.camera());
-    for (const part of [this.model, this.layer, this.stage]) part.dispose();
+    for (const part of [this.notices, this.model, this.layer, this.stage]) part.dispose();
     this.element.replaceChildren();
   }
 

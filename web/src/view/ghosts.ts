@@ -107,10 +107,11 @@ export class Ghosts {
     const meshes = meshesOf(scene).slice(0, kMostGhosts);
     while (this.list.length > meshes.length) this.drop(this.list.pop()!);
     while (this.list.length < meshes.length) this.list.push(this.make());
+    const urls = meshes.map(({ file }) => (shapeOf(file) ? file : fileUrl(file)));
     meshes.forEach((mesh, i) => {
       const ghost = this.list[i]!;
       ghost.mesh = mesh;
-      ghost.form = this.form(mesh.file, fileUrl);
+      ghost.form = this.form(mesh.file, urls[i]!);
       if (ghost.form) {
         ghost.surface.geometry = ghost.form.surface;
         ghost.edges.geometry = ghost.form.edges;
@@ -124,6 +125,7 @@ export class Ghosts {
         object.matrixWorldNeedsUpdate = true;
       }
     });
+    this.forget(new Set(urls));
     this.paint();
   }
 
@@ -201,28 +203,40 @@ export class Ghosts {
     });
   }
 
-  private form(file: string, fileUrl: (path: string) => string): Form | null {
-    const known = this.forms.get(file);
+  /** By address: a file that was replaced has another one, if the page says so in it. */
+  private form(file: string, url: string): Form | null {
+    const known = this.forms.get(url);
     if (known) return typeof known === "string" ? null : known;
     const shape = shapeOf(file);
     if (shape) {
       const form = makeForm(shapeTriangles(shape));
-      this.forms.set(file, form);
+      this.forms.set(url, form);
       return form;
     }
-    this.forms.set(file, "coming");
-    void this.fetch(file, fileUrl(file));
+    this.forms.set(url, "coming");
+    void this.fetch(file, url);
     return null;
+  }
+
+  /** Forgets files that no mesh names any more, so that one that failed is asked for again when it is named again. */
+  private forget(used: ReadonlySet<string>): void {
+    for (const [url, form] of this.forms) {
+      if (used.has(url) || form === "coming") continue;
+      this.forms.delete(url);
+      if (form === "failed") continue;
+      form.surface.dispose();
+      form.edges.dispose();
+    }
   }
 
   private async fetch(file: string, url: string): Promise<void> {
     try {
       const answer = await fetch(url);
       if (!answer.ok) throw new Error(`the server answers ${answer.status}`);
-      this.forms.set(file, makeForm(await inSlices(readObj(await answer.text()))));
+      this.forms.set(url, makeForm(await inSlices(readObj(await answer.text()))));
       this.changed();
     } catch (error) {
-      this.forms.set(file, "failed");
+      this.forms.set(url, "failed");
       this.failed(`${file} cannot be shown: ${error instanceof Error ? error.message : String(error)}`);
     }
   }

@@ -8,6 +8,7 @@ const css = (c: Rgb): string => `rgb(${c.map((x) => Math.round(255 * x)).join(" 
 
 export class Notices {
   private readonly box = document.createElement("div");
+  private timer = 0;
   private readonly live = document.createElement("div");
 
   constructor(parent: HTMLElement) {
@@ -22,8 +23,10 @@ export class Notices {
     parent.append(this.box, this.live);
   }
 
-  /** Stays until something works again; "" takes it back. */
-  complain(words: string): void {
+  /** Stays until something works again, or for a while (milliseconds); "" takes it back. */
+  complain(words: string, brief = 0): void {
+    clearTimeout(this.timer);
+    if (brief > 0) this.timer = window.setTimeout(() => this.complain(""), brief);
     this.box.textContent = words;
     this.box.style.display = words ? "block" : "none";
   }
@@ -41,6 +44,10 @@ export class Notices {
       if (!(error instanceof MessageError)) throw error;
       this.complain(error.message);
     }
+  }
+
+  dispose(): void {
+    clearTimeout(this.timer);
   }
 
   setPalette(p: Palette): void {

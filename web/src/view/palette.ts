@@ -34,12 +34,12 @@ const kAxes = [hex(0xe0603a), hex(0x35a58c), hex(0x4a8fe0)] as const;
 
 export const kDark: Palette = {
   background: hex(0x1f2226), ground: hex(0x2a2e33), grid: hex(0x596069), halo: hex(0x101214), curve: hex(0x56b4e9),
-  selected: hex(0xf5b83d), handle: hex(0xffffff), bone: hex(0xe8d9a0), field: hex(0x8fb8d6), want: hex(0x4f9be0),
+  selected: hex(0xf5b83d), handle: hex(0xffffff), bone: hex(0xe6a8d0), field: hex(0x8fb8d6), want: hex(0x4f9be0),
   avoid: hex(0xe8703a), density: hex(0xb8bec6), axes: kAxes, text: hex(0xe6e8ea),
 };
 
 export const kLight: Palette = {
   background: hex(0xe6e8eb), ground: hex(0xd9dcdf), grid: hex(0x9aa1a9), halo: hex(0xffffff), curve: hex(0x0b65ac),
-  selected: hex(0xc77700), handle: hex(0xffffff), bone: hex(0x5a4a1a), field: hex(0x41708f), want: hex(0x1b6fc2),
+  selected: hex(0xc77700), handle: hex(0xffffff), bone: hex(0x9a3f78), field: hex(0x41708f), want: hex(0x1b6fc2),
   avoid: hex(0xcc4e12), density: hex(0x50565d), axes: kAxes, text: hex(0x24282c),
 };
