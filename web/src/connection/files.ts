@@ -53,11 +53,11 @@ export class Files {
 
 /** A name for a file that the project does not have yet, of plain letters: `my tree.obj` -> `my-tree.obj`, `my-tree-2.obj`. */
 export function freeName(name: string, taken: readonly string[]): string {
-  const dot = name.lastIndexOf(".");
-  const end = dot > 0 ? name.slice(dot).toLowerCase().replace(/[^a-z0-9.]/g, "") : "";
-  const stem = (dot > 0 ? name.slice(0, dot) : name)
+  const end = /\.[A-Za-z0-9]{1,9}$/.exec(name)?.[0].toLowerCase() ?? "";
+  const stem = name
+    .slice(0, name.length - end.length)
     .replace(/[^A-Za-z0-9_-]+/g, "-")
-    .replace(/^[-.]+|-+$/g, "")
+    .replace(/^-+|-+$/g, "")
     .slice(0, 60);
   const first = stem || "file";
   for (let n = 1; ; ++n) {

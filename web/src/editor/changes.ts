@@ -1,6 +1,4 @@
 // The difference of two texts as one change: what they share at both ends stays.
-import type { ChangeSpec } from "@codemirror/state";
-
 export interface Change {
   from: number;
   to: number;
@@ -24,13 +22,11 @@ export function changeBetween(before: string, after: string): Change | null {
 const isHigh = (code: number) => code >= 0xd800 && code < 0xdc00;
 const isLow = (code: number) => code >= 0xdc00 && code < 0xe000;
 
-export const asSpec = (change: Change): ChangeSpec => change;
-
 /** Line by line, so that after formatting the cursor stays where it was: changes of lines that are not in both. */
 export function changesByLine(before: string, after: string): Change[] {
   const whole = changeBetween(before, after);
   if (whole === null) return [];
-  const from = before.lastIndexOf("\n", whole.from - 1) + 1;
+  const from = whole.from === 0 ? 0 : before.lastIndexOf("\n", whole.from - 1) + 1;
   const tail = before.length - whole.to;
   const oldLines = before.slice(from, whole.to).split("\n");
   const newLines = after.slice(from, after.length - tail).split("\n");

@@ -1,5 +1,5 @@
 import type { Symbol } from "../api";
-import { commentBefore, declarations, namesInScope, scan } from "./scan";
+import { commentBefore, declarations, localAt, scan } from "./scan";
 import { findWord } from "./words";
 
 export interface HoverText {
@@ -15,7 +15,7 @@ export function hoverAt(text: string, at: number, symbols: readonly Symbol[]): H
   const word = tokens.find((token) => token.kind === "word" && token.from <= at && at < token.to);
   if (word === undefined) return null;
   const { from, to } = word;
-  const local = namesInScope(text, to).filter((one) => one.name === word.text).at(-1);
+  const local = localAt(text, tokens, word);
   if (local !== undefined)
     return { from, to, signature: local.signature, text: { draw: "A draw of this rule.", let: "", loop: "Counts the turns of the loop.", parameter: "A parameter." }[local.kind] };
   const symbol = symbols.find((one) => one.name === word.text);

@@ -35,8 +35,7 @@ export function readToken(stream: StringStream, state: LineState): string | null
     const known = findWord(word);
     // `depth`, `top` and the like may be labels of arguments.
     if (known !== undefined) return kSorts[known.sort];
-    if (kRefers.has(before)) return before === "rule" || before === "detail" ? "ruleDefinition" : "ruleName";
-    if (before === "else" || before === "otherwise") return "ruleName";
+    if (kRefers.has(before)) return before === "rule" || (before === "detail" && state.depth === 0) ? "ruleDefinition" : "ruleName";
     if (kDeclares.has(before)) return "definition";
     if (state.inComp > 0 && state.depth === state.inComp && (FACES as readonly string[]).includes(word)) return "face";
     if (stream.match(/^\s*~(?!\d)/, false)) return "draw";

@@ -150,7 +150,14 @@ function endOfCall(text: string, tokens: readonly Token[], at: number): number {
     if (token.text === ")" && --depth === 0) return token.to;
     if (depth === 0 && i > at) return tokens[i - 1]!.to;
   }
-  return Math.min(text.length, (tokens[at]?.to ?? 0) + 0);
+  return tokens[at]?.to ?? text.length;
+}
+
+/** What a word is within its rule: a draw or let where it is made, too. */
+export function localAt(text: string, tokens: readonly Token[], word: Token): LocalName | undefined {
+  const next = tokens[tokens.indexOf(word) + 1];
+  const seenFrom = next?.text === "~" ? next.to : word.to + 1;
+  return namesInScope(text, seenFrom).filter((one) => one.name === word.text).at(-1);
 }
 
 /** Where the name that stands at `at` is declared. */
@@ -158,7 +165,7 @@ export function definitionOf(text: string, at: number): { from: number; to: numb
   const tokens = scan(text);
   const word = tokens.find((token) => token.kind === "word" && token.from <= at && at <= token.to);
   if (word === undefined) return null;
-  const local = namesInScope(text, word.to).filter((one) => one.name === word.text).at(-1);
+  const local = localAt(text, tokens, word);
   if (local !== undefined) return { from: local.from, to: local.to };
   const own = declarations(text, tokens).find((one) => one.name === word.text);
   return own === undefined ? null : { from: own.nameFrom, to: own.nameTo };

@@ -14,6 +14,8 @@ export interface Shortcut {
   group: string;
   /** Also while text is typed. */
   everywhere?: boolean;
+  /** Not on the sheet: another key for the same. */
+  unlisted?: boolean;
   run?(studio: Studio): void;
 }
 
@@ -43,10 +45,10 @@ function stepTarget(studio: Studio, step: 1 | -1): void {
 export const SHORTCUTS: readonly Shortcut[] = [
   { key: "z", mod: true, words: "Undo, whatever it was", group: "Editing", everywhere: true, run: (studio) => studio.undo() },
   { key: "z", mod: true, shift: true, words: "Redo", group: "Editing", everywhere: true, run: (studio) => studio.redo() },
-  { key: "y", mod: true, words: "Redo", group: "Editing", everywhere: true, run: (studio) => studio.redo() },
+  { key: "y", mod: true, words: "Redo", group: "Editing", unlisted: true, everywhere: true, run: (studio) => studio.redo() },
   { key: "d", mod: true, words: "Duplicate the selected target", group: "Editing", run: (studio) => onSelected(studio, "duplicateTarget") },
   { key: "Delete", words: "Delete the selected target", group: "Editing", run: (studio) => onSelected(studio, "removeTarget") },
-  { key: "Backspace", words: "The same", group: "Editing", run: (studio) => onSelected(studio, "removeTarget") },
+  { key: "Backspace", words: "Delete the selected target", group: "Editing", unlisted: true, run: (studio) => onSelected(studio, "removeTarget") },
   { key: "]", words: "Select the next target", group: "Editing", run: (studio) => stepTarget(studio, 1) },
   { key: "[", words: "Select the target before", group: "Editing", run: (studio) => stepTarget(studio, -1) },
   { key: "Escape", words: "Select nothing; the select tool", group: "Editing", run: (studio) => {
@@ -154,7 +156,7 @@ export function ShortcutsDialog({ onClose }: { onClose(): void }) {
           <section key={group} aria-label={group}>
             <h3>{group}</h3>
             <dl>
-              {SHORTCUTS.filter((one) => one.group === group).map((one, i) => (
+              {SHORTCUTS.filter((one) => one.group === group && !one.unlisted).map((one, i) => (
                 <div key={i}>
                   <dt>{keyNames(one).map((name) => <kbd key={name}>{name}</kbd>)}</dt>
                   <dd>{one.words}</dd>

@@ -35,12 +35,28 @@ export function Toolbar() {
       </span>
       <span class="toolbar-space" />
       <Connection />
+      <SearchButton />
       <ExportMenu />
       <IconButton label={`Theme: ${theme}`} onClick={() => studio.setPreferences({ theme: kThemes[(at + 1) % kThemes.length]!.theme })}>
         <Icon name={kThemes[at]!.icon} />
       </IconButton>
       <IconButton label="Keys" keys="?" onClick={() => (state.dialog.value = "shortcuts")}><Icon name="help" /></IconButton>
     </header>
+  );
+}
+
+/** The search can be started and stopped whatever the panels show. */
+function SearchButton() {
+  const studio = useStudio();
+  const running = studio.state.search.value?.running ?? false;
+  const offline = studio.state.status.value.kind !== "open" || studio.document.value === null;
+  return (
+    <button
+      type="button" class={running ? "button search-button on" : "button search-button"} disabled={offline} title={running ? "Stop the search (Space)" : "Search (Space)"}
+      onClick={() => studio.toggleSearch()}
+    >
+      <Icon name={running ? "stop" : "play"} />{running ? "Stop" : "Search"}
+    </button>
   );
 }
 

@@ -279,6 +279,7 @@ export class Studio implements ViewHost {
   }
 
   toggleSearch(): void {
+    if (this.state.status.value.kind !== "open" || this.document.value === null) return;
     if (this.state.search.value?.running) this.stopSearch();
     else this.startSearch("new");
   }
