@@ -44,8 +44,8 @@ export function NumberBox({ label, value, min, max, step, whole, standard, id, d
       disabled={disabled}
       aria-label={label}
       aria-valuenow={value}
-      aria-valuemin={min}
-      aria-valuemax={max}
+      aria-valuemin={plain(min)}
+      aria-valuemax={plain(max)}
       autocomplete="off"
       value={draft ?? showNumber(value)}
       onInput={(event) => setDraft(event.currentTarget.value)}
@@ -90,6 +90,11 @@ export function NumberBox({ label, value, min, max, step, whole, standard, id, d
       }}
     />
   );
+}
+
+/** For attributes that know no exponents. */
+function plain(limit: number | undefined): number | undefined {
+  return limit !== undefined && /^-?\d+(\.\d+)?$/.test(String(limit)) ? limit : undefined;
 }
 
 /** A row: its name, and the number. A double click on the name takes the default. */

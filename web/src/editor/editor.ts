@@ -91,9 +91,8 @@ export class Editor {
       autocompletion({ override: [completionSource(() => this.host.symbols())], icons: false, activateOnTypingDelay: 60 }),
       hoverTooltip((view, at) => this.hover(view, at)),
       keymap.of([
-        { key: "Mod-z", run: run(() => this.host.undo()), preventDefault: true },
-        { key: "Mod-y", mac: "Mod-Shift-z", run: run(() => this.host.redo()), preventDefault: true },
-        { key: "Mod-Shift-z", run: run(() => this.host.redo()), preventDefault: true },
+        { key: "Mod-z", run: run(() => this.host.undo()), shift: run(() => this.host.redo()), preventDefault: true },
+        { key: "Mod-y", run: run(() => this.host.redo()), preventDefault: true },
         { key: "Mod-s", run: run(() => this.host.format()), preventDefault: true },
         { key: "F12", run: (view) => this.goToDefinition(view.state.selection.main.head) },
         { key: "Mod-/", run: toggleComment },

@@ -136,6 +136,9 @@ const kSides: readonly { side: Side; words: string; key: string }[] = [
   { side: "-y", words: "From below", key: "6" },
 ];
 
+/** With a real minus. */
+const sideName = (side: Side) => side.replace("-", "−");
+
 function LookBar() {
   const studio = useStudio();
   const preferences = studio.preferences.value;
@@ -151,8 +154,8 @@ function LookBar() {
       <div class="tool-strip flat sides" role="toolbar" aria-label="Sides">
         <IconButton label="See all of it" keys="F" onClick={() => currentView.value?.frame()}><Icon name="frame" /></IconButton>
         {kSides.map((one) => (
-          <IconButton key={one.side} label={one.words} keys={one.key} onClick={() => currentView.value?.snap(one.side)}>
-            <span class="side-name">{one.side.replace("-", "−")}</span>
+          <IconButton key={one.side} label={`${one.words}, ${sideName(one.side)}`} keys={one.key} onClick={() => currentView.value?.snap(one.side)}>
+            <span class="side-name">{sideName(one.side)}</span>
           </IconButton>
         ))}
       </div>
