@@ -134,7 +134,7 @@ describe("the grammar", () => {
   test("completes with the keyboard", async () => {
     const { page } = studio;
     await cursorAfter(page, "tone + 0.5");
-    await page.keyboard.type("\n  detail Le");
+    await page.keyboard.type("\ndetail Le");
     await page.locator(".cm-tooltip-autocomplete li", { hasText: "Leaf" }).waitFor();
     // For a moment after it has come up, a completion takes no keys: whoever types on meant something else.
     await page.waitForTimeout(200);

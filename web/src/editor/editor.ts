@@ -98,7 +98,7 @@ export class Editor {
         { key: "Mod-/", run: toggleComment },
         ...closeBracketsKeymap, ...completionKeymap, ...foldKeymap, ...lintKeymap, ...searchKeymap, ...defaultKeymap, indentWithTab,
       ]),
-      EditorView.contentAttributes.of({ "aria-label": "Grammar", spellcheck: "false", autocorrect: "off", autocapitalize: "off" }),
+      EditorView.contentAttributes.of({ "aria-label": "Grammar", tabindex: "0", spellcheck: "false", autocorrect: "off", autocapitalize: "off" }),
       EditorView.domEventHandlers({
         mousedown: (event, view) => {
           if (!(event.ctrlKey || event.metaKey) || event.button !== 0) return false;
