@@ -7,6 +7,9 @@ export function createView(element: HTMLElement, host: ViewHost): StudioView {
   place.className = "stand-in";
   const canvas = document.createElement("canvas");
   place.append(canvas);
+  element.tabIndex = 0;
+  element.setAttribute("role", "application");
+  element.setAttribute("aria-label", "Model");
   element.append(place);
   const camera: Camera = { eye: [4, 3, 8], at: [0, 2, 0], up: [0, 1, 0], fov_deg: 45 };
   let model: Float32Array = new Float32Array(0);

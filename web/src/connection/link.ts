@@ -13,8 +13,10 @@ export function socketAddress(address: string, token: string): string {
   return url.href;
 }
 
-/** Number of the project in the address (`#project=3`), so that a reload opens it again. */
+/** Number of the project in the address: `#project=3` of the one that was open, so that a reload opens it again, else the
+ *  one of the link, `&project=3`. */
 export function projectOf(address: string): number | null {
-  const text = new URLSearchParams(new URL(address).hash.slice(1)).get("project");
+  const url = new URL(address);
+  const text = new URLSearchParams(url.hash.slice(1)).get("project") ?? url.searchParams.get("project");
   return text !== null && /^\d{1,15}$/.test(text) ? Number(text) : null;
 }

@@ -19,7 +19,8 @@ export function sceneValue(attribute: Attribute, value: Value): Value {
 
 /** "Tree/Branch over parent": the group and the label. */
 export function labelOf(attribute: Attribute): { group: string; label: string } {
-  const written = attribute.label ?? "";
+  const words = attribute.comment ?? "";
+  const written = attribute.label ?? (words.length <= 60 && words.indexOf("/") > 0 ? words : "");
   const slash = written.indexOf("/");
   if (slash > 0) return { group: written.slice(0, slash).trim(), label: written.slice(slash + 1).trim() || attribute.name };
   return { group: "", label: written || attribute.name };

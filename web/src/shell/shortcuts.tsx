@@ -20,7 +20,9 @@ export interface Shortcut {
 }
 
 const tool = (key: string, name: Tool, words: string): Shortcut => ({ key, words, group: "Tools", run: (studio) => studio.setTool(name) });
-const side = (key: string, name: Side, words: string): Shortcut => ({ key, words, group: "View", run: () => currentView.value?.snap(name) });
+const side = (key: string, shift: boolean, name: Side, words: string): Shortcut => ({
+  key, shift, words, group: "View", run: () => currentView.value?.snap(name),
+});
 const toggle = (key: string, name: "parts" | "bones" | "field" | "targets" | "ground" | "reach", words: string): Shortcut => ({
   key, words, group: "View", run: (studio) => studio.setPreferences({ [name]: !studio.preferences.value[name] }),
 });
@@ -62,15 +64,15 @@ export const SHORTCUTS: readonly Shortcut[] = [
   tool("u", "cylinder", "Place a cylinder"),
   tool("p", "paint", "Paint a silhouette"),
   { key: "f", words: "See all of it", group: "View", run: () => currentView.value?.frame() },
-  side("1", "+z", "From the front"),
-  side("2", "-z", "From behind"),
-  side("3", "+x", "From the right"),
-  side("4", "-x", "From the left"),
-  side("5", "+y", "From above"),
-  side("6", "-y", "From below"),
+  side("1", false, "+z", "From the front"),
+  side("1", true, "-z", "From behind"),
+  side("3", false, "+x", "From the right"),
+  side("3", true, "-x", "From the left"),
+  side("7", false, "+y", "From above"),
+  side("7", true, "-y", "From below"),
   toggle("g", "ground", "Ground"),
   toggle("m", "parts", "Model"),
-  toggle("n", "bones", "Bones"),
+  toggle("j", "bones", "Bones"),
   toggle("w", "field", "Field of directions"),
   toggle("t", "targets", "Targets"),
   toggle("h", "reach", "Where the rule under the cursor can reach"),
@@ -99,7 +101,7 @@ export const SHORTCUTS: readonly Shortcut[] = [
 
 function switchFocus(): void {
   const editor = document.querySelector(".grammar-editor")?.shadowRoot?.querySelector<HTMLElement>(".cm-content");
-  const view = document.querySelector<HTMLElement>(".view-place");
+  const view = document.querySelector<HTMLElement>(".view-element");
   if (document.activeElement?.shadowRoot?.activeElement === editor) view?.focus();
   else editor?.focus();
 }
@@ -118,13 +120,17 @@ function takesSpace(target: EventTarget | null | undefined): boolean {
   return target instanceof HTMLElement && target.matches("button, a, input, summary, [role=tab], [role=menuitem]");
 }
 
-export function shortcutFor(event: Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">, inText: boolean): Shortcut | undefined {
+export type KeyPress = Pick<KeyboardEvent, "key" | "code" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;
+
+export function shortcutFor(event: KeyPress, inText: boolean): Shortcut | undefined {
   if (event.altKey) return undefined;
   const mod = event.ctrlKey || event.metaKey;
-  const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+  // With Shift a digit is another letter, which one depends on the keyboard; a number pad has them with and without.
+  const digit = /^(?:Digit|Numpad)(\d)$/.exec(event.code)?.[1];
+  const key = (event.shiftKey ? digit : undefined) ?? (event.key.length === 1 ? event.key.toLowerCase() : event.key);
   return SHORTCUTS.find(
     (one) => one.run !== undefined && one.key === key && Boolean(one.mod) === mod && (!inText || one.everywhere) &&
-      (Boolean(one.shift) === event.shiftKey || (!one.mod && /[^a-z]/.test(key))),
+      (Boolean(one.shift) === event.shiftKey || (one.shift === undefined && !one.mod && /[^a-z]/.test(key))),
   );
 }
 

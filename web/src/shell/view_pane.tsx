@@ -25,8 +25,8 @@ export function ViewPane() {
     };
   }, [studio]);
   return (
-    <div class="view">
-      <div class="view-place" ref={place} tabIndex={0} role="application" aria-label="Model. Keys are in the sheet that ? shows." />
+    <div class="view-pane">
+      <div class="view-place"><div class="view-element" ref={place} /></div>
       <Tools />
       <LookBar />
       <ViewNumbers />
@@ -121,7 +121,7 @@ function BrushBar() {
 type LookKey = "parts" | "bones" | "field" | "targets" | "ground" | "reach";
 const kLooks: readonly { name: LookKey; icon: IconName; words: string; key: string }[] = [
   { name: "parts", icon: "parts", words: "Model", key: "M" },
-  { name: "bones", icon: "bones", words: "Bones", key: "N" },
+  { name: "bones", icon: "bones", words: "Bones", key: "J" },
   { name: "field", icon: "field", words: "Field of directions", key: "W" },
   { name: "targets", icon: "targets", words: "Targets", key: "T" },
   { name: "reach", icon: "reach", words: "Where the rule under the cursor can reach", key: "H" },
@@ -129,11 +129,11 @@ const kLooks: readonly { name: LookKey; icon: IconName; words: string; key: stri
 ];
 const kSides: readonly { side: Side; words: string; key: string }[] = [
   { side: "+z", words: "From the front", key: "1" },
-  { side: "-z", words: "From behind", key: "2" },
+  { side: "-z", words: "From behind", key: "Shift-1" },
   { side: "+x", words: "From the right", key: "3" },
-  { side: "-x", words: "From the left", key: "4" },
-  { side: "+y", words: "From above", key: "5" },
-  { side: "-y", words: "From below", key: "6" },
+  { side: "-x", words: "From the left", key: "Shift-3" },
+  { side: "+y", words: "From above", key: "7" },
+  { side: "-y", words: "From below", key: "Shift-7" },
 ];
 
 /** With a real minus. */

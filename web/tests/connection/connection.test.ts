@@ -43,6 +43,8 @@ describe("the link", () => {
     expect(socketAddress("http://127.0.0.1:8137/?token=a%20b&x=1#project=3", "a b")).toBe("ws://127.0.0.1:8137/socket?token=a+b");
     expect(socketAddress("https://localhost/", "t")).toBe("wss://localhost/socket?token=t");
     expect(projectOf("http://h/?token=1#project=12")).toBe(12);
+    expect(projectOf("http://h/?token=1&project=4")).toBe(4);
+    expect(projectOf("http://h/?token=1&project=4#project=5")).toBe(5);
     expect(projectOf("http://h/#project=1e9")).toBeNull();
     expect(projectOf("http://h/")).toBeNull();
   });

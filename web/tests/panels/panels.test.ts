@@ -46,6 +46,8 @@ describe("attributes", () => {
     expect(labelOf({ ...lean, label: "Tree/Leans" })).toEqual({ group: "Tree", label: "Leans" });
     expect(labelOf({ ...lean, label: "Leans" })).toEqual({ group: "", label: "Leans" });
     expect(labelOf(lean)).toEqual({ group: "", label: "lean" });
+    expect(labelOf({ ...lean, comment: "Tree/Leans" })).toEqual({ group: "Tree", label: "Leans" });
+    expect(labelOf({ ...lean, comment: "How far it leans." })).toEqual({ group: "", label: "lean" });
   });
 
   test("are whole where they go by whole steps", () => {
@@ -123,7 +125,7 @@ describe("pictures of numbers", () => {
 
 describe("shortcuts", () => {
   const press = (key: string, more: Partial<KeyboardEvent> = {}, inText = false) =>
-    shortcutFor({ key, ctrlKey: false, metaKey: false, shiftKey: false, altKey: false, ...more }, inText)?.words;
+    shortcutFor({ key, code: "", ctrlKey: false, metaKey: false, shiftKey: false, altKey: false, ...more }, inText)?.words;
 
   test("no two share their keys", () => {
     const keys = SHORTCUTS.map((one) => `${one.mod} ${one.shift} ${one.key}`);
@@ -138,7 +140,14 @@ describe("shortcuts", () => {
     expect(press("c", { ctrlKey: true })).toBeUndefined();
     expect(press("c", { altKey: true })).toBeUndefined();
     expect(press("C", { shiftKey: true })).toBeUndefined();
-    expect(press("?", { shiftKey: true })).toBe("This sheet");
+    expect(press("?", { shiftKey: true, code: "Minus" })).toBe("This sheet");
+  });
+
+  test("digits with Shift are digits on any keyboard", () => {
+    expect(press("1", { code: "Digit1" })).toBe("From the front");
+    expect(press("!", { code: "Digit1", shiftKey: true })).toBe("From behind");
+    expect(press("End", { code: "Numpad1", shiftKey: true })).toBe("From behind");
+    expect(press("2", { code: "Digit2" })).toBeUndefined();
   });
 
   test("fields take text, sliders and buttons do not", () => {
