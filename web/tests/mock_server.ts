@@ -239,7 +239,6 @@ export class MockServer {
       case "set_lock":
         if (message.kind === "set_lock") this.locked[message.locked ? "add" : "delete"](message.gene);
         this.show(project);
-        this.say(socket, this.gene(message.gene));
         return done();
       case "keep_favourite":
         project.favourites = [...project.favourites, { id: Date.now(), score: 31931.75, genes: 14, words: "all of 2 curves" }];

@@ -44,16 +44,18 @@ export function Slider(props: SliderProps) {
           onChange(logarithmic ? fromLog(next, min, max) : next, gesture.current());
         }}
         onPointerDown={() => gesture.next()}
-        onChange={() => gesture.next()}
+        onPointerUp={() => gesture.next()}
         onBlur={() => gesture.next()}
         onDblClick={onReset}
       />
-      {words === undefined ? (
-        <NumberBox label={`${label}, number`} value={value} min={min} max={max} step={step} whole={props.whole} disabled={props.disabled} onChange={onChange} />
-      ) : (
-        <span class="slider-words">{words}</span>
-      )}
-      {unit !== undefined && <span class="unit">{unit}</span>}
+      <span class="slider-end">
+        {words === undefined ? (
+          <NumberBox label={`${label}, number`} value={value} min={min} max={max} step={step} whole={props.whole} disabled={props.disabled} onChange={onChange} />
+        ) : (
+          <span class="slider-words">{words}</span>
+        )}
+        {unit !== undefined && <span class="unit">{unit}</span>}
+      </span>
     </div>
   );
 }

@@ -11,7 +11,7 @@ export function GenePanel() {
   const gene = studio.state.gene.value;
   if (gene === null)
     return <Panel id="gene" title="Gene"><p class="hint">Click a part in the view to see its rule, its path and its draws.</p></Panel>;
-  const stale = studio.state.shown.value !== null && studio.state.shown.value.model !== gene.model;
+  const stale = studio.state.selection.value?.kind !== "gene";
   const jump = () => {
     if (gene.at !== undefined) studio.state.jump.value = { at: gene.at, focus: true };
   };
@@ -21,7 +21,7 @@ export function GenePanel() {
         <button type="button" class="text-button" onClick={jump} disabled={gene.at === undefined} title="Go to its rule">
           <Icon name="rule" />{gene.rule}
         </button>
-        <button type="button" class={gene.locked ? "button lock on" : "button lock"} aria-pressed={gene.locked} disabled={stale} onClick={() => studio.setLock(!gene.locked)} title="Keep it with all that stands on it (L)">
+        <button type="button" class={gene.locked ? "button lock on" : "button lock"} aria-pressed={gene.locked} disabled={stale} onClick={() => void studio.setLock(!gene.locked)} title="Keep it with all that stands on it (L)">
           <Icon name={gene.locked ? "lock" : "unlock"} />{gene.locked ? "Locked" : "Lock"}
         </button>
       </div>
@@ -37,15 +37,19 @@ export function GenePanel() {
 function DrawRow({ draw, disabled }: { draw: Draw; disabled: boolean }) {
   const studio = useStudio();
   const [held, setHeld] = useState<number | null>(null);
-  useEffect(() => setHeld(null), [draw.quantile]);
+  useEffect(() => {
+    if (held !== null && Math.abs(draw.quantile - held) < 1e-3) setHeld(null);
+  }, [draw.quantile]);
   return (
-    <Slider
-      label={draw.name} min={0} max={1} step={0.005} value={held ?? draw.quantile} words={draw.value} disabled={disabled}
-      title={draw.low === undefined ? draw.name : `${draw.name}: ${draw.low} to ${draw.high}`}
-      onChange={(quantile, gesture) => {
-        setHeld(quantile);
-        studio.setDraw(draw.index, quantile, gesture);
-      }}
-    />
+    <div onFocusOut={() => setHeld(null)}>
+      <Slider
+        label={draw.name} min={0} max={1} step={0.005} value={held ?? draw.quantile} words={draw.value} disabled={disabled}
+        title={draw.low === undefined ? draw.name : `${draw.name}: ${draw.low} to ${draw.high}`}
+        onChange={(quantile, gesture) => {
+          setHeld(quantile);
+          studio.setDraw(draw.index, quantile, gesture);
+        }}
+      />
+    </div>
   );
 }

@@ -29,7 +29,7 @@ export function ObjectivePanel() {
       {terms.length > 0 && (
         <ul>
           {terms.map((term, i) => (
-            <li key={`${term.target} ${term.name}`} title={`${term.target}: ${term.name}, ${showNumber(term.count)} of ${showNumber(term.of)} ${term.unit}`}>
+            <li key={`${term.target} ${term.name}`} title={`${term.target}: ${term.name}, ${showNumber(term.count)}${term.of > 0 ? ` of ${showNumber(term.of)}` : ""} ${term.unit}`}>
               <span class="term-name"><span class="dim">{term.target}</span> {term.name}</span>
               <span class="term-value">{term.value > 0 ? "+" : ""}{showNumber(term.value)}</span>
               <span class="term-track" aria-hidden="true">

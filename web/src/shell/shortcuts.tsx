@@ -82,7 +82,7 @@ export const SHORTCUTS: readonly Shortcut[] = [
   } },
   { key: "l", words: "Lock or free the selected gene", group: "Search", run: (studio) => {
     const gene = studio.state.gene.value;
-    if (gene !== null) studio.setLock(!gene.locked);
+    if (gene !== null && studio.state.selection.value?.kind === "gene") void studio.setLock(!gene.locked);
   } },
   { key: "s", mod: true, words: "Format the grammar (all is saved as you go)", group: "Grammar", everywhere: true, run: (studio) => studio.format() },
   { key: "F8", words: "Next problem", group: "Grammar" },

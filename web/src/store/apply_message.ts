@@ -29,6 +29,10 @@ export function applyMessage(state: State, message: Message): void {
         state.shown.value = message;
         break;
       case "gene": {
+        if (state.wantedPath.value !== null && state.wantedPath.value !== message.path) {
+          if (state.selection.value?.kind === "gene") state.selection.value = null;
+          break;
+        }
         const other = state.gene.value?.path !== message.path;
         state.gene.value = message;
         state.selection.value = { kind: "gene", gene: message.gene };

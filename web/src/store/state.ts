@@ -48,6 +48,8 @@ export function newState() {
     search: signal<SearchState | null>(null),
     shown: signal<Shown | null>(null),
     gene: signal<Gene | null>(null),
+    /** Path of the gene that was asked for again in a new model, where its number may mean another; null: any will do. */
+    wantedPath: signal<string | null>(null),
     log: signal<readonly LogLine[]>([]),
     /** The newest binary messages. */
     meshes: signal<ArrayBuffer | null>(null),

@@ -29,7 +29,8 @@ export interface StudioOptions {
 /** Milliseconds without a key before typed text is sent. */
 export const kTypingPause = 150;
 const kNoticeMilliseconds = 5000;
-export const kSecondsDefault = 5;
+/** What a search may take where the scene says nothing; the server's own default. */
+export const kSecondsDefault = 2;
 
 export class Studio implements ViewHost {
   readonly state = newState();
@@ -301,9 +302,21 @@ export class Studio implements ViewHost {
     this.drawUnderWay = false;
   }
 
-  setLock(locked: boolean): void {
+  async setLock(locked: boolean): Promise<void> {
     const gene = this.state.gene.value;
-    if (gene !== null) void this.ask({ kind: "set_lock", gene: gene.gene, model: gene.model, locked });
+    if (gene === null) return;
+    if (await this.ask({ kind: "set_lock", gene: gene.gene, model: gene.model, locked })) this.askGeneAgain();
+  }
+
+  /** The selected gene as it is in the model that is shown now, if it is still the same. */
+  private askGeneAgain(): void {
+    const { gene, shown, wantedPath, selection } = this.state;
+    const before = gene.peek();
+    const model = shown.peek()?.model;
+    if (before === null || model === undefined || selection.peek()?.kind !== "gene") return;
+    wantedPath.value = before.path;
+    // A model that is not there any more was followed by another, for which this is done again.
+    this.connection.request({ kind: "ask_gene", gene: before.gene, model }).catch(() => undefined);
   }
 
   // --- What the view asks for -------------------------------------------------------------------------------------------
@@ -318,6 +331,7 @@ export class Studio implements ViewHost {
     this.state.selection.value = selection;
     const model = this.state.shown.value?.model;
     if (selection?.kind === "gene") {
+      this.state.wantedPath.value = null;
       if (model !== undefined) void this.ask({ kind: "ask_gene", gene: selection.gene, model });
     } else this.state.gene.value = null;
   }
@@ -361,9 +375,7 @@ export class Studio implements ViewHost {
       // A gene's number means nothing in another model.
       effect(() => {
         const model = this.state.shown.value?.model;
-        const gene = this.state.gene.value;
-        if (model === undefined || gene === null || gene.model === model) return;
-        if (this.state.selection.peek()?.kind === "gene") this.state.selection.value = null;
+        if (model !== undefined && this.state.gene.peek() !== null && this.state.gene.peek()!.model !== model) this.askGeneAgain();
       }),
       // Where the rule under the cursor can reach: asked when the cursor rests, and again when the grammar has changed.
       this.watchReach(),

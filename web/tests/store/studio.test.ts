@@ -190,16 +190,38 @@ describe("genes", () => {
     expect(bench.studio.state.jump.value).toEqual({ at: { from: 5, to: 9 }, focus: false });
   });
 
-  test("of another model are not selected any more", async () => {
+  test("are asked for again in a new model, and stay selected if they are still the same", async () => {
     const bench = await new Bench().open();
     const stop = bench.studio.watch();
     bench.socket.say(shownOf(3));
     bench.studio.select({ kind: "gene", gene: 4 });
     bench.socket.say(gene(3, 4));
     bench.socket.say(shownOf(5));
+    expect(bench.socket.sent.at(-1)).toMatchObject({ kind: "ask_gene", gene: 4, model: 5 });
+    bench.socket.say(gene(5, 4));
+    expect(bench.studio.state.selection.value).toEqual({ kind: "gene", gene: 4 });
+    expect(bench.studio.state.gene.value!.model).toBe(5);
+    bench.socket.say(shownOf(6));
+    bench.socket.say(gene(6, 4, "A/C"));
     expect(bench.studio.state.selection.value).toBeNull();
-    expect(bench.studio.state.gene.value).not.toBeNull();
+    expect(bench.studio.state.gene.value!.path).toBe("A/B");
+    const count = bench.socket.sent.length;
+    bench.socket.say(shownOf(7));
+    expect(bench.socket.sent).toHaveLength(count);
+    bench.studio.select({ kind: "gene", gene: 8 });
+    bench.socket.say(gene(7, 8, "A/D"));
+    expect(bench.studio.state.gene.value!.path).toBe("A/D");
     stop();
+  });
+
+  test("are asked for again when they were locked", async () => {
+    const bench = await new Bench().open();
+    bench.socket.say(shownOf(3));
+    bench.studio.select({ kind: "gene", gene: 4 });
+    bench.socket.say(gene(3, 4));
+    void bench.studio.setLock(true);
+    await bench.answer("set_lock");
+    expect(bench.socket.kinds().slice(-2)).toEqual(["set_lock", "ask_gene"]);
   });
 
   test("dragging a draw keeps one request on its way, each for the gene of the newest model", async () => {
