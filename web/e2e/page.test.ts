@@ -261,6 +261,7 @@ describe("keys", () => {
     await page.locator(".view-element").focus();
     await page.keyboard.press("?");
     const sheet = page.getByRole("dialog", { name: "Keys" });
+    await sheet.waitFor();
     expect(await sheet.locator("dl > div").count()).toBeGreaterThan(30);
     await page.keyboard.press("Escape");
     await sheet.waitFor({ state: "detached" });

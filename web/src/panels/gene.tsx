@@ -10,13 +10,13 @@ export function GenePanel() {
   const studio = useStudio();
   const gene = studio.state.gene.value;
   if (gene === null)
-    return <Panel id="gene" title="Gene"><p class="hint">Click a part in the view to see its rule, its path and its draws.</p></Panel>;
+    return <Panel id="gene" title="Gene" reveal=""><p class="hint">Click a part in the view to see its rule, its path and its draws.</p></Panel>;
   const stale = studio.state.selection.value?.kind !== "gene";
   const jump = () => {
     if (gene.at !== undefined) studio.state.jump.value = { at: gene.at, focus: true };
   };
   return (
-    <Panel id="gene" title="Gene" note={gene.rule}>
+    <Panel id="gene" title="Gene" note={gene.rule} reveal={gene.path}>
       <div class="gene-head">
         <button type="button" class="text-button" onClick={jump} disabled={gene.at === undefined} title="Go to its rule">
           <Icon name="rule" />{gene.rule}

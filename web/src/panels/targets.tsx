@@ -47,7 +47,10 @@ export function TargetsPanel() {
   const selection = studio.state.selection.value;
   const problem = studio.state.checked.value?.scene_problem;
   return (
-    <Panel id="targets" title="Targets" note={rows.length || ""} actions={<AddTarget />}>
+    <Panel
+      id="targets" title="Targets" note={rows.length || ""} actions={<AddTarget />}
+      reveal={selection === null || selection.kind === "gene" ? "" : `${selection.kind} ${selection.index}`}
+    >
       {problem !== undefined && <p class="problem-line" role="alert">{problem}</p>}
       {rows.length === 0 && <p class="hint">Draw a curve in the view (C), or add a mesh or a picture.</p>}
       <ul class="targets" aria-label="Targets">
