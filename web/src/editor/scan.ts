@@ -13,9 +13,13 @@ export interface Token {
 
 const kToken = /#[^\n]*|"[^"\n]*"?|(?:\d+(?:\.(?!\.)\d*)?(?:[eE][+-]?\d+)?)(?:deg|rad|mm|cm|m|%)?(?![A-Za-z_0-9])|\d+|[A-Za-z_]\w*|->|\.\.|[<>=!]=|[^\s]/g;
 
+/** Longer texts are not read here: keys shall not wait for that. */
+export const kMostScanned = 400_000;
+
 /** Comments are left out. */
 export function scan(text: string): Token[] {
   const out: Token[] = [];
+  if (text.length > kMostScanned) return out;
   for (const match of text.matchAll(kToken)) {
     const word = match[0];
     const first = word[0]!;

@@ -16,6 +16,7 @@ export function BottomPane() {
   const studio = useStudio();
   const [tab, setTab] = useState<(typeof kTabs)[number]>("Problems");
   const problems = studio.state.checked.value?.problems ?? [];
+  const wrong = problems.some((problem) => problem.severity === "error");
   const files = studio.document.value?.files ?? [];
   const counts = { Problems: problems.length, Log: 0, Files: files.length };
   const move = (event: KeyboardEvent) => {
@@ -34,7 +35,7 @@ export function BottomPane() {
             onClick={() => setTab(name)}
           >
             {name}
-            {counts[name] > 0 && <span class={name === "Problems" ? "badge" : "badge quiet"}>{counts[name]}</span>}
+            {counts[name] > 0 && <span class={name !== "Problems" ? "badge quiet" : wrong ? "badge" : "badge doubtful"}>{counts[name]}</span>}
           </button>
         ))}
       </div>

@@ -71,7 +71,7 @@ function AllCurves() {
     <div role="group" aria-label="All curves" class="settings">
       <h3>All curves</h3>
       <CheckField
-        label="Blend directions" value={curves.blend ?? false} standard={curves.blend === undefined}
+        label="Blend" value={curves.blend ?? false} standard={curves.blend === undefined}
         title="Weighs the directions of the two nearest curves by how near they are."
         onChange={(blend) => studio.setScene("Blend curves", changeCurves(studio.scene.value, { blend }))}
       />

@@ -93,6 +93,12 @@ describe("scanning", () => {
     for (const one of found.filter(({ kind }) => kind === "rule" || kind === "detail")) expect(text[one.to - 1]).toBe("}");
   });
 
+  test("texts that are too long have no tokens, and nothing fails for it", () => {
+    const long = `rule A { }\n${" ".repeat(400_000)}`;
+    expect(scan(long)).toEqual([]);
+    expect(declarations(long)).toEqual([]);
+  });
+
   test("ranges are no decimals", () => {
     expect(scan("1..5 0.5..2.5").map((token) => token.text)).toEqual(["1", "..", "5", "0.5", "..", "2.5"]);
   });
