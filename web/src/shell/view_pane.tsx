@@ -1,14 +1,15 @@
 // The middle: the view with its tools. What the view shows follows from the store.
-import { effect } from "@preact/signals";
+import { computed, effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { IconButton } from "../controls/fields";
 import { Icon, type IconName } from "../controls/icons";
 import { Slider } from "../controls/slider";
 import { thousands } from "../panels/search";
-import type { Brush, Side, StudioView, Tool } from "../view/host";
+import type { Brush, Highlight, Side, StudioView, Tool } from "../view/host";
 import { createView } from "../view_choice";
 import { useStudio } from "./studio_context";
 import { currentView } from "./view_access";
+import { stable } from "../store/stable";
 import type { Studio } from "../store/studio";
 
 export function ViewPane() {
@@ -36,6 +37,17 @@ export function ViewPane() {
 
 function follow(studio: Studio, view: StudioView): (() => void)[] {
   const { state } = studio;
+  const project = computed(() => studio.document.value?.project.id);
+  const rules = stable(() => state.shown.value?.rules ?? []);
+  const highlight = stable<Highlight>(() => {
+    const rule = state.cursorRule.value;
+    const selection = state.selection.value;
+    return {
+      locked: state.shown.value?.locked ?? [],
+      ...(rule === null ? {} : { rule }),
+      ...(selection?.kind === "gene" ? { gene: selection.gene } : {}),
+    };
+  });
   return [
     effect(() => view.setLook(studio.look.value)),
     effect(() => {
@@ -44,11 +56,11 @@ function follow(studio: Studio, view: StudioView): (() => void)[] {
     effect(() => {
       if (state.model.value !== null) view.setModel(state.model.value);
     }),
-    effect(() => view.setRules(state.shown.value?.rules ?? [])),
+    effect(() => view.setRules(rules.value)),
     effect(() => view.setCloud(state.cloud.value)),
     effect(() => {
-      const project = studio.document.value?.project.id;
-      if (project !== undefined) view.setScene(studio.scene.value, (path) => studio.files.url(project, path));
+      const id = project.value;
+      if (id !== undefined) view.setScene(studio.scene.value, (path) => studio.files.url(id, path));
     }),
     effect(() => view.setHidden?.(state.hidden.value)),
     effect(() => {
@@ -57,16 +69,7 @@ function follow(studio: Studio, view: StudioView): (() => void)[] {
     }),
     effect(() => view.setTool(state.tool.value)),
     effect(() => view.setBrush(state.brush.value.brush, state.brush.value.radius)),
-    effect(() => {
-      const rule = state.cursorRule.value;
-      const selection = state.selection.value;
-      const locked = state.shown.value?.locked ?? [];
-      view.setHighlight({
-        locked,
-        ...(rule === null ? {} : { rule }),
-        ...(selection?.kind === "gene" ? { gene: selection.gene } : {}),
-      });
-    }),
+    effect(() => view.setHighlight(highlight.value)),
   ];
 }
 

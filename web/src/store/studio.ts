@@ -11,6 +11,7 @@ import {
   addSilhouette, changeSilhouette, countOf, curvesOf, duplicateTarget, FIRST_CURVE, removeTarget, sameCamera,
   silhouettesOf, withGuidedEngine, type TargetKind,
 } from "./scene";
+import { stable } from "./stable";
 import { addLog, newState, type TargetSelection } from "./state";
 
 export interface StudioOptions {
@@ -45,12 +46,13 @@ export class Studio implements ViewHost {
     return confirmed === null ? null : { ...confirmed, ...this.edits.overlay.value };
   });
   readonly grammar = computed(() => this.document.value?.grammar ?? "");
-  readonly scene = computed<Scene>(() => this.document.value?.scene ?? {});
+  /** Every message of the server brings the scene anew; it is another one only when it says something else. */
+  readonly scene = stable<Scene>(() => this.document.value?.scene ?? {});
   readonly dark = computed(() => {
     const theme = this.preferences.value.theme;
     return theme === "system" ? this.options.systemDark.value : theme === "dark";
   });
-  readonly look = computed<Look>(() => {
+  readonly look = stable<Look>(() => {
     const { parts, bones, field, targets, ground } = this.preferences.value;
     return { parts, bones, field, targets, ground, dark: this.dark.value };
   });

@@ -104,6 +104,15 @@ describe("editing", () => {
     expect(bench.studio.scene.value).toEqual({ seed: 7 });
   });
 
+  test("elsewhere leaves the scene the same object, so that the view rests", async () => {
+    const bench = await new Bench().open("one", { seed: 3 });
+    const before = bench.studio.scene.value;
+    bench.socket.say(documentOf(2, "two", { seed: 3 }));
+    expect(bench.studio.scene.value).toBe(before);
+    bench.socket.say(documentOf(3, "two", { seed: 4 }));
+    expect(bench.studio.scene.value).toEqual({ seed: 4 });
+  });
+
   test("that the server refuses goes back to what it was", async () => {
     const bench = await new Bench().open("one");
     bench.studio.setGrammar("Edit", "two");
