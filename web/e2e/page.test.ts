@@ -223,9 +223,11 @@ describe("panels", () => {
 
   test("exports are links of the project, with the token", async () => {
     const { page } = studio;
+    const focused = () => page.evaluate(() => document.activeElement?.getAttribute("href"));
     await page.getByRole("button", { name: "Export" }).click();
+    await expect.poll(focused).toBe("/projects/1/export/glb?token=mock");
     await page.keyboard.press("ArrowDown");
-    expect(await page.evaluate(() => (document.activeElement as HTMLAnchorElement).getAttribute("href"))).toBe("/projects/1/export/obj?token=mock");
+    await expect.poll(focused).toBe("/projects/1/export/obj?token=mock");
     await page.keyboard.press("Escape");
     expect(await page.getByRole("menu").count()).toBe(0);
   });
