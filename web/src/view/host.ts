@@ -47,6 +47,8 @@ export interface StudioView {
   setCloud(message: ArrayBuffer | null): void;
   setRules(names: string[]): void;
   setScene(scene: Scene, fileUrl: (path: string) => string): void;
+  /** Targets by their places in the scene that shall not be drawn, although they count. */
+  setHidden?(hidden: { curves: readonly number[]; meshes: readonly number[] }): void;
   setSelection(selection: Selection | null): void;
   setTool(tool: Tool): void;
   setBrush(brush: Brush, radius: number): void;
