@@ -79,9 +79,7 @@ Vec3 CurveFinder::tangent(std::size_t index, float t) const {
 }
 
 float CurveFinder::parameter_on(std::uint32_t curve, const Vec3& p) const {
-  CurveHit hit;
-  scan_curves(&curves_[curve], 1, &p.x, &hit);
-  return hit.t;
+  return scan_curve(curves_[curve], &p.x);
 }
 
 CurvePoint CurveFinder::nearest(const Vec3& p) const {

@@ -71,8 +71,8 @@ CurveHit hit_at(const CurveTable& curve, Xyz p, float t) {
   return {t, dot(away, away)};
 }
 
-/// Down to the bottom of the valley by Newton's method, wherever it starts.
-CurveHit descend(const CurveTable& curve, Xyz p, float t) {
+/// Down to the bottom of the valley by Newton's method, wherever it starts: a parameter.
+float descend(const CurveTable& curve, Xyz p, float t) {
   const Xyz power[4] = {load(curve.power[0]), load(curve.power[1]), load(curve.power[2]), load(curve.power[3])};
   Xyz away = power[0] - p + t * (power[1] + t * (power[2] + t * power[3]));
   CurveHit found{t, dot(away, away)};
@@ -93,7 +93,7 @@ CurveHit descend(const CurveTable& curve, Xyz p, float t) {
     if (distance2 < 1.000001f * found.distance2) found = {t, distance2};
     if (moved < 1e-5f) break;
   }
-  return found;
+  return found.t;
 }
 
 /// A step of Halley's method on the slope of the squared distance, a polynomial of degree 5; NaN or `valley` false
@@ -108,15 +108,19 @@ HWY_INLINE double halley(const double slope[6], double t, bool& valley) {
   return std::min(std::max(t - f * f1 / bottom, 0.0), 1.0);
 }
 
-/// From each sample that may be the nearest of all (distance2 <= reach2) and has none nearer beside it.
-CurveHit refine(const CurveTable& curve, const float p[3], const SampleScan& scan, float reach2) {
+/// The slope of the squared distance from p, over two: curve . derivative is the curve's, the rest depends on p.
+struct Slope {
+  Slope(const CurveTable& curve, const float p[3]) {
+    for (int k = 0; k < 6; ++k) of[k] = curve.slope[k];
+    for (int k = 0; k < 3; ++k)
+      of[k] -= p[0] * curve.derivative[k][0] + p[1] * curve.derivative[k][1] + p[2] * curve.derivative[k][2];
+  }
+  double of[6];  // t^0 .. t^5
+};
+
+/// Bit i: sample i is not farther than reach2 and has none nearer beside it.
+std::uint32_t valleys_of(const SampleScan& scan, float reach2) {
   const Floats f;
-  CurveHit best{0, kNone};
-  const Xyz place = {p[0], p[1], p[2], 0};
-  double slope[6];
-  for (int k = 0; k < 6; ++k) slope[k] = curve.slope[k];
-  for (int k = 0; k < 3; ++k)
-    slope[k] -= p[0] * curve.derivative[k][0] + p[1] * curve.derivative[k][1] + p[2] * curve.derivative[k][2];
   std::uint32_t valleys = 0;
   for (std::size_t i = 0; i < kSamples; i += hn::Lanes(f)) {
     const float* const at = scan.distance2() + i;
@@ -127,24 +131,52 @@ CurveHit refine(const CurveTable& curve, const float p[3], const SampleScan& sca
     hn::StoreMaskBits(f, lowest, bits);
     valleys |= static_cast<std::uint32_t>(bits[0]) << i;
   }
-  for (; valleys != 0; valleys &= valleys - 1) {
-    const auto i = static_cast<std::size_t>(__builtin_ctz(valleys));
-    // The bottom of the parabola through three samples is a good place to begin.
-    const float* const at = scan.distance2() + i;
-    const float left = at[0] - *(at - 1), right = at[1] - at[0], bend = right - left;
-    const float aside = bend > 0 && bend < kNone ? -0.5f * (left + right) / bend : 0.0f;
-    const float start = (static_cast<float>(i) + aside) * (1.0f / (kSamples - 1));
-    // After a step that short the next would be of the order of its cube: mostly the first one is.
-    double t = start, moved = 1;
-    bool valley = true;
-    for (int turn = 0; turn < 3 && valley && moved > 4e-3; ++turn) {
-      const double next = halley(slope, t, valley);
-      moved = std::abs(next - t), t = next;
-    }
-    const CurveHit found = valley && moved <= 4e-3 ? hit_at(curve, place, static_cast<float>(t)) : descend(curve, place, start);
+  return valleys;
+}
+
+/// The bottom of the valley at sample i: its parameter.
+float bottom_at(const CurveTable& curve, const Slope& slope, Xyz place, const SampleScan& scan, std::size_t i) {
+  // The bottom of the parabola through three samples is a good place to begin.
+  const float* const at = scan.distance2() + i;
+  const float left = at[0] - *(at - 1), right = at[1] - at[0], bend = right - left;
+  const float aside = bend > 0 && bend < kNone ? -0.5f * (left + right) / bend : 0.0f;
+  const float start = (static_cast<float>(i) + aside) * (1.0f / (kSamples - 1));
+  // After a step that short the next would be of the order of its cube: mostly the first one is.
+  double t = start, moved = 1;
+  bool valley = true;
+  for (int turn = 0; turn < 3 && valley && moved > 4e-3; ++turn) {
+    const double next = halley(slope.of, t, valley);
+    moved = std::abs(next - t), t = next;
+  }
+  return valley && moved <= 4e-3 ? static_cast<float>(t) : descend(curve, place, start);
+}
+
+/// The nearest point, from each sample that may be the nearest of all (distance2 <= reach2).
+CurveHit refine(const CurveTable& curve, const float p[3], const SampleScan& scan, float reach2) {
+  const Slope slope(curve, p);
+  const Xyz place = {p[0], p[1], p[2], 0};
+  CurveHit best{0, kNone};
+  for (std::uint32_t valleys = valleys_of(scan, reach2); valleys != 0; valleys &= valleys - 1) {
+    const CurveHit found =
+        hit_at(curve, place, bottom_at(curve, slope, place, scan, static_cast<std::size_t>(__builtin_ctz(valleys))));
     if (found.distance2 < best.distance2) best = found;
   }
   return best;
+}
+
+/// How far a sample may be that leads to the nearest point, squared; where the nearest of all samples is so far.
+float reach_of(const CurveTable& curve, float nearest2) {
+  const float reach = std::sqrt(nearest2) + curve.reach;
+  return std::max(reach * reach, nearest2);  // far away a small reach is lost in rounding
+}
+
+float scan_one(const CurveTable& curve, const float p[3]) {
+  SampleScan samples;
+  const float reach2 = reach_of(curve, scan_samples(curve, p, samples));
+  const std::uint32_t valleys = valleys_of(samples, reach2);
+  if (valleys == 0 || (valleys & (valleys - 1)) != 0) return refine(curve, p, samples, reach2).t;
+  const Xyz place = {p[0], p[1], p[2], 0};
+  return bottom_at(curve, Slope(curve, p), place, samples, static_cast<std::size_t>(__builtin_ctz(valleys)));
 }
 
 void scan(const CurveTable* curves, std::size_t count, const float p[3], CurveHit* hits) {
@@ -157,10 +189,8 @@ void scan(const CurveTable* curves, std::size_t count, const float p[3], CurveHi
     nearest2 = std::min(nearest2, least[c]);
     hits[c] = {0, kNone};
   }
-  const float nearest = std::sqrt(nearest2);
   for (std::size_t c = 0; c < count; ++c) {
-    const float reach = nearest + curves[c].reach;
-    const float reach2 = std::max(reach * reach, nearest2);  // far away a small reach is lost in rounding
+    const float reach2 = reach_of(curves[c], nearest2);
     if (least[c] <= reach2) hits[c] = refine(curves[c], p, scans[c], reach2);
   }
 }
@@ -174,10 +204,13 @@ HWY_AFTER_NAMESPACE();
 namespace espalier {
 
 HWY_EXPORT(scan);
+HWY_EXPORT(scan_one);
 
 void scan_curves(const CurveTable* curves, std::size_t count, const float p[3], CurveHit* hits) {
   HWY_DYNAMIC_DISPATCH(scan)(curves, count, p, hits);
 }
+
+float scan_curve(const CurveTable& curve, const float p[3]) { return HWY_DYNAMIC_DISPATCH(scan_one)(curve, p); }
 
 }  // namespace espalier
 

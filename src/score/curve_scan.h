@@ -24,5 +24,7 @@ struct CurveHit {
 /// hits[i] = the point of curve i that is nearest to p, or nothing (infinity) where another curve is nearer for sure.
 /// The same bits on every CPU.
 void scan_curves(const CurveTable* curves, std::size_t count, const float p[3], CurveHit* hits);
+/// The parameter of the point of one curve that is nearest to p; the very bits of its hit.
+float scan_curve(const CurveTable& curve, const float p[3]);
 
 }  // namespace espalier
