@@ -190,9 +190,13 @@ Mesh place_mesh(Mesh mesh, const SceneMesh& placing) {
 }
 
 std::unique_ptr<Setup> set_up(const Scene& scene, MeshSource& source) {
+  return set_up(scene, load_grammar(resolve(scene, scene.grammar), scene.attributes), source);
+}
+
+std::unique_ptr<Setup> set_up(const Scene& scene, LoadedGrammar grammar, MeshSource& source) {
   auto setup = std::make_unique<Setup>();
   setup->scene = scene;
-  setup->grammar = load_grammar(resolve(scene, scene.grammar), scene.attributes);
+  setup->grammar = std::move(grammar);
   if (!setup->grammar.warnings.empty()) setup->warnings.push_back(setup->grammar.warnings);
   setup->meshes = load_meshes(setup->grammar, source);
   setup->textures = load_textures(setup->grammar);

@@ -30,7 +30,7 @@ struct StoredFile {
   std::string hash;  // content_hash of its bytes
   std::uint64_t bytes = 0;
   std::uint64_t triangles = 0;  // 0: no mesh
-  std::array<float, 3> size{};  // of the box around a mesh
+  std::array<float, 3> size = {};  // of the box around a mesh
 
   bool operator==(const StoredFile&) const = default;
 };
