@@ -1,0 +1,496 @@
+#include "studio/project_session.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "derivation/encode.h"
+#include "grammar/formatter.h"
+#include "studio/gene_text.h"
+#include "studio/scene_json.h"
+#include "studio/web_guard.h"
+
+namespace espalier::studio {
+namespace {
+
+constexpr std::size_t kMostRecent = 12;   // models that requests may name
+constexpr double kReachTurn = 0.01;       // seconds
+constexpr auto kSaveEvery = std::chrono::milliseconds(700);
+
+template <class Message>
+std::string answer_text(Message message, std::optional<std::int64_t> number) {
+  message.request = number;
+  return to_text(message);
+}
+
+std::string failed(const std::string& text, std::optional<std::int64_t> number) {
+  return to_text(api::Failed{number, text});
+}
+
+bool scene_has_targets(const std::string& scene) {
+  try {
+    return read_scene(scene, {}).has_targets;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+ProjectSession::ProjectSession(Store& store, std::int64_t project)
+    : store_(store), project_(project) {
+  now_ = store_.open(project);
+  favourites_ = store_.favourites(project);
+  state_ = now_.state;
+  const std::string shown = store_.shown(project);
+  LiveListener& self = *this;
+  live_ = std::make_unique<LiveSearch>([&store, project](const std::string& hash) { return store.blob(project, hash); },
+                                       self, shown);
+  // Where nothing was ever shown, the scene that it was made with is searched at once.
+  live_->take(state_, LiveStart::keep);
+  if (shown.empty() && scene_has_targets(state_.scene)) live_->start(LiveStart::nothing, 0);
+  thread_ = std::thread([this] { run(); });
+}
+
+ProjectSession::~ProjectSession() {
+  {
+    const std::lock_guard lock(mutex_);
+    end_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+  live_.reset();
+  try {
+    save_shown();
+  } catch (const std::exception&) {  // the last second is lost
+  }
+}
+
+void ProjectSession::join(const WebSocketPtr& socket, std::optional<std::int64_t> request) {
+  const bool taken = enqueue([this, socket, request] {
+    send_document(&socket);
+    if (checked_revision_ >= 0) send_checked(&socket);
+    {
+      const std::lock_guard lock(mutex_);
+      sockets_.push_back(socket);
+      if (search_state_) socket->out.push_text(*search_state_);
+      if (packet_.model) socket->out.push_model(packet_);
+    }
+    socket->out.push_text(answer_text(api::Done{}, request));
+  });
+  if (!taken) socket->out.push_text(failed("the project is busy", request));
+}
+
+void ProjectSession::renamed() {
+  enqueue([this] {
+    take_now(store_.open(project_));
+    send_document();
+  });
+}
+
+void ProjectSession::leave(const WebSocketPtr& socket) {
+  const std::lock_guard lock(mutex_);
+  std::erase(sockets_, socket);
+  if (sockets_.empty() && live_ && !end_) live_->stop();
+}
+
+bool ProjectSession::watched() const {
+  const std::lock_guard lock(mutex_);
+  return !sockets_.empty() || !tasks_.empty();
+}
+
+void ProjectSession::post(const WebSocketPtr& socket, api::Request request, std::optional<std::int64_t> number) {
+  const auto held = std::make_shared<const api::Request>(std::move(request));
+  if (enqueue([this, socket, held, number] { answer(socket, *held, number); })) return;
+  socket->out.push_text(failed("too many requests wait already", number));
+}
+
+bool ProjectSession::enqueue(Task task) {
+  const std::lock_guard lock(mutex_);
+  if (end_ || tasks_.size() >= kMostWaiting) return false;
+  tasks_.push_back(std::move(task));
+  changed_.notify_all();
+  return true;
+}
+
+void ProjectSession::add_file(const StoredFile& file, const std::string& bytes) {
+  const auto done = std::make_shared<std::promise<void>>();
+  std::future<void> result = done->get_future();
+  const bool taken = enqueue([this, file, bytes, done] {
+    try {
+      StoredState next = now_.state;
+      std::erase_if(next.files, [&](const StoredFile& old) { return old.path == file.path; });
+      next.files.push_back(file);
+      std::sort(next.files.begin(), next.files.end(),
+                [](const StoredFile& a, const StoredFile& b) { return a.path < b.path; });
+      change(next, {.label = "Add " + file.path}, LiveStart::keep, {}, {{file.hash, bytes}});
+      done->set_value();
+    } catch (...) {
+      done->set_exception(std::current_exception());
+    }
+  });
+  if (!taken) throw Error("the project is busy");
+  result.get();
+}
+
+StoredState ProjectSession::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+ShownModelPtr ProjectSession::shown() const {
+  const std::lock_guard lock(mutex_);
+  return recent_.empty() ? nullptr : recent_.back();
+}
+
+// The search's thread.
+
+void ProjectSession::shown(const ShownModelPtr& model, const ModelPacket& packet) {
+  const std::lock_guard lock(mutex_);
+  recent_.push_back(model);
+  if (recent_.size() > kMostRecent) recent_.pop_front();
+  packet_ = packet;
+  unsaved_ = true;
+  for (const WebSocketPtr& socket : sockets_) socket->out.push_model(packet);
+  changed_.notify_all();
+}
+
+void ProjectSession::searched(const api::SearchState& state) {
+  std::string text = to_text(state);
+  const std::lock_guard lock(mutex_);
+  for (const WebSocketPtr& socket : sockets_) socket->out.push_text(text);
+  search_state_ = std::move(text);
+}
+
+void ProjectSession::scene_problem(const std::string& text) {
+  enqueue([this, text] {
+    setup_fault_ = text;
+    if (checked_revision_ >= 0) send_checked();
+  });
+}
+
+void ProjectSession::noted(api::LogLevel level, const std::string& text) {
+  broadcast(to_text(api::Log{{}, level, text}));
+}
+
+// The session's thread.
+
+void ProjectSession::run() {
+  auto saved = std::chrono::steady_clock::now();
+  for (;;) {
+    Task task;
+    {
+      std::unique_lock lock(mutex_);
+      if (end_) return;
+      if (!tasks_.empty()) {
+        task = std::move(tasks_.front());
+        tasks_.pop_front();
+      }
+    }
+    try {
+      if (task) {
+        task();
+        continue;
+      }
+      if (do_idle_work()) continue;
+      const auto now = std::chrono::steady_clock::now();
+      bool unsaved = false;
+      {
+        std::unique_lock lock(mutex_);
+        const auto wakes = [&] { return end_ || !tasks_.empty() || (unsaved_ && now - saved >= kSaveEvery); };
+        changed_.wait_for(lock, kSaveEvery, wakes);
+        unsaved = unsaved_;
+      }
+      if (unsaved && std::chrono::steady_clock::now() - saved >= kSaveEvery) {
+        saved = std::chrono::steady_clock::now();
+        save_shown();
+      }
+    } catch (const std::exception& error) {
+      noted(api::LogLevel::error, error.what());
+    }
+  }
+}
+
+void ProjectSession::save_shown() {
+  ShownModelPtr newest;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!unsaved_ || recent_.empty()) return;
+    newest = recent_.back();
+    unsaved_ = false;
+  }
+  store_.set_shown(project_, newest->encoded);
+}
+
+bool ProjectSession::do_idle_work() {
+  if (checked_revision_ != now_.revision) {
+    check();
+    send_checked();
+    if (reach_) {  // it is asked for again, of the new text
+      for (const WebSocketPtr& socket : reach_for_) reach_asked_.try_emplace(socket->number, socket, reach_->rule());
+      reach_.reset();
+    }
+    return true;
+  }
+  if (!reach_ && !reach_asked_.empty() && text_.compiled.graph) {
+    // All who asked for one rule get one cloud.
+    const std::string rule = reach_asked_.begin()->second.second;
+    reach_for_.clear();
+    for (auto it = reach_asked_.begin(); it != reach_asked_.end();) {
+      if (it->second.second != rule) {
+        ++it;
+        continue;
+      }
+      reach_for_.push_back(it->second.first);
+      it = reach_asked_.erase(it);
+    }
+    Scene scene;
+    try {
+      scene = read_scene(now_.state.scene, {kGrammarName, "", text_.kinds}).scene;
+    } catch (const Error&) {  // its settings do not matter that much
+    }
+    reach_ = std::make_unique<Reach>(text_.compiled.graph, scene, rule);
+  }
+  if (!reach_) return false;
+  reach_->go_on(kReachTurn);
+  if (!reach_->done()) return true;
+  const Bytes cloud = std::make_shared<const std::string>(reach_->message());
+  for (const WebSocketPtr& socket : reach_for_) socket->out.push_cloud(cloud);
+  reach_.reset();
+  return true;
+}
+
+void ProjectSession::check() {
+  const StoredState& state = now_.state;
+  checked_revision_ = now_.revision;
+  const ReadBlob read = [this](const std::string& hash) { return store_.blob(project_, hash); };
+  // Kinds of attributes are known from the last good text; of new ones the next check knows.
+  std::map<std::string, std::string> values;
+  try {
+    values = attributes_of(state.scene, text_.kinds);
+  } catch (const Error&) {
+  }
+  const std::map<std::string, Kind> kinds_before = text_.kinds;
+  CheckedText text = check_text(state.grammar, values, import_reader(state.files, read));
+  if (text.compiled.checked && text.kinds != kinds_before) {
+    values = attributes_of(state.scene, text.kinds);
+    if (!values.empty()) text = check_text(state.grammar, values, import_reader(state.files, read));
+  }
+  if (!text.compiled.checked) text.kinds = kinds_before;
+  text_ = std::move(text);
+  if (text_.compiled.checked) attributes_ = text_.attributes;
+  scene_fault_.clear();
+  try {
+    read_scene(state.scene, {kGrammarName, "", text_.kinds});
+  } catch (const Error& error) {
+    scene_fault_ = error.what();
+  }
+}
+
+void ProjectSession::send_checked(const WebSocketPtr* only) {
+  api::Checked message;
+  message.revision = checked_revision_;
+  message.problems = text_.problems;
+  message.symbols = text_.symbols;
+  message.attributes = attributes_;
+  const std::string& fault = scene_fault_.empty() ? setup_fault_ : scene_fault_;
+  if (!fault.empty()) message.scene_problem = fault;
+  const std::string text = to_text(message);
+  if (only) {
+    (*only)->out.push_text(text);
+  } else {
+    broadcast(text);
+  }
+}
+
+void ProjectSession::send_document(const WebSocketPtr* only) {
+  api::Document document;
+  document.project = {now_.project.id, now_.project.name, now_.project.changed};
+  document.revision = now_.revision;
+  document.grammar = now_.state.grammar;
+  document.scene.text = now_.state.scene;
+  for (const StoredFile& file : now_.state.files) {
+    api::FileInfo info{file.path, static_cast<std::int64_t>(file.bytes), {}, {}};
+    if (file.triangles > 0) {
+      info.triangles = static_cast<std::int64_t>(file.triangles);
+      info.size = {file.size[0], file.size[1], file.size[2]};
+    }
+    document.files.push_back(std::move(info));
+  }
+  for (const StoredFavourite& one : favourites_) document.favourites.push_back({one.id, one.score, one.genes, one.words});
+  document.undo = now_.undo;
+  document.redo = now_.redo;
+  const std::string text = to_text(document);
+  if (only) {
+    (*only)->out.push_text(text);
+  } else {
+    broadcast(text);
+  }
+}
+
+void ProjectSession::broadcast(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  for (const WebSocketPtr& socket : sockets_) socket->out.push_text(text);
+}
+
+void ProjectSession::answer(const WebSocketPtr& socket, const api::Request& request, std::optional<std::int64_t> number) {
+  try {
+    std::visit([&](const auto& asked) { act(socket, asked); }, request);
+    socket->out.push_text(answer_text(api::Done{}, number));
+  } catch (const std::exception& error) {
+    socket->out.push_text(failed(error.what(), number));
+  }
+}
+
+void ProjectSession::take_now(StoredProjectState now) {
+  now_ = std::move(now);
+  const std::lock_guard lock(mutex_);
+  state_ = now_.state;
+}
+
+void ProjectSession::change(const StoredState& next, const StoredStep& step, LiveStart start,
+                            std::optional<std::string> model, const std::map<std::string, std::string>& blobs) {
+  // The search begins while the disk is written; files it can read only from there.
+  const bool early = blobs.empty();
+  if (early) live_->take(next, start, model);
+  try {
+    take_now(store_.edit(project_, next, step, blobs));
+  } catch (...) {
+    if (early) live_->take(now_.state, LiveStart::keep, step.model_before);
+    throw;
+  }
+  if (!early) live_->take(next, start, model);
+  send_document();
+}
+
+void ProjectSession::act(const WebSocketPtr&, const api::Edit& edit) {
+  StoredState next = now_.state;
+  if (edit.grammar) next.grammar = *edit.grammar;
+  if (edit.scene) next.scene = edit.scene->text;
+  const bool search = edit.search.value_or(false);
+  if (next == now_.state) {
+    if (search) live_->start(LiveStart::shown, 0);
+    return;
+  }
+  change(next, {.label = edit.label, .gesture = edit.gesture.value_or(""), .search = search},
+         search ? LiveStart::shown : LiveStart::keep);
+}
+
+void ProjectSession::moved(const std::optional<StoredMove>& move, const char* nothing) {
+  if (!move) throw Error(nothing);
+  live_->take(move->now.state, move->search ? LiveStart::shown : LiveStart::keep, move->model);
+  take_now(move->now);
+  send_document();
+}
+
+void ProjectSession::act(const WebSocketPtr&, const api::Undo&) { moved(store_.undo(project_), "there is nothing to undo"); }
+void ProjectSession::act(const WebSocketPtr&, const api::Redo&) { moved(store_.redo(project_), "there is nothing to do again"); }
+
+void ProjectSession::act(const WebSocketPtr&, const api::RemoveFile& remove) {
+  StoredState next = now_.state;
+  const auto is_it = [&](const StoredFile& file) { return file.path == remove.path; };
+  if (std::erase_if(next.files, is_it) == 0) throw Error(fmt::format("the project has no file {}", remove.path));
+  change(next, {.label = "Remove " + remove.path}, LiveStart::keep);
+}
+
+void ProjectSession::act(const WebSocketPtr&, const api::StartSearch& start) {
+  LiveStart from = start.from == api::StartSearchFrom::shown ? LiveStart::shown : LiveStart::nothing;
+  if (start.onward.value_or(false)) from = LiveStart::onward;
+  live_->start(from, start.seconds);
+}
+
+void ProjectSession::act(const WebSocketPtr&, const api::StopSearch&) { live_->stop(); }
+
+ShownModelPtr ProjectSession::find_model(std::int64_t number) const {
+  const std::lock_guard lock(mutex_);
+  for (const ShownModelPtr& model : recent_) {
+    if (model->number == number) return model;
+  }
+  throw Error(fmt::format("model {} is not shown any more", number));
+}
+
+void ProjectSession::act(const WebSocketPtr& socket, const api::AskGene& ask) {
+  socket->out.push_text(answer_text(gene_text(*find_model(ask.model), ask.gene), ask.request));
+}
+
+void ProjectSession::show_by_hand(const std::string& label, const std::string& gesture, const std::string& derivation) {
+  const ShownModelPtr before = shown();
+  live_->stop();
+  StoredStep step{label, gesture, false, {}, derivation};
+  if (before) step.model_before = before->encoded;
+  change(now_.state, step, LiveStart::keep, derivation);
+}
+
+void ProjectSession::act(const WebSocketPtr&, const api::SetDraw& set) {
+  const ShownModelPtr model = find_model(set.model);
+  const Derivation changed = with_draw(*model, set.gene, set.index, set.quantile);
+  const GeneratorGraph& graph = model->setup->graph();
+  const Rule& rule = rule_of(graph, changed.genes[static_cast<std::size_t>(set.gene)]);
+  show_by_hand("Set a draw of " + rule.name, set.gesture.value_or(""), encode(graph, changed));
+}
+
+void ProjectSession::act(const WebSocketPtr&, const api::SetLock& set) {
+  const ShownModelPtr model = find_model(set.model);
+  const std::string path = path_of(*model, set.gene);
+  const auto within = [](const std::string& one, const std::string& other) {
+    return one == other || (one.starts_with(other) && one[other.size()] == '/');
+  };
+  std::vector<std::string> locks = locks_of(now_.state.scene);
+  // A lock holds all below; what frees a gene frees those above it too.
+  std::erase_if(locks, [&](const std::string& lock) { return set.locked ? within(lock, path) : within(path, lock); });
+  if (set.locked) locks.push_back(path);
+  StoredState next = now_.state;
+  next.scene = with_locks(next.scene, locks);
+  if (next == now_.state) return;
+  const std::string rule = path.substr(path.rfind('/') + 1);
+  change(next, {.label = (set.locked ? "Lock " : "Free ") + rule}, LiveStart::keep);
+}
+
+void ProjectSession::act(const WebSocketPtr& socket, const api::AskReach& ask) {
+  reach_asked_[socket->number] = {socket, ask.rule};
+}
+
+void ProjectSession::act(const WebSocketPtr&, const api::Format&) {
+  Diagnostics diagnostics;
+  const std::optional<std::string> text = format_grammar(now_.state.grammar, diagnostics);
+  if (!text) throw Error("the grammar cannot be read: see its problems");
+  if (*text == now_.state.grammar) return;
+  StoredState next = now_.state;
+  next.grammar = *text;
+  change(next, {.label = "Format"}, LiveStart::keep);
+}
+
+void ProjectSession::act(const WebSocketPtr&, const api::KeepFavourite&) {
+  const ShownModelPtr model = shown();
+  if (!model) throw Error("no model is shown");
+  StoredFavourite favourite{0, model->score.value_or(0), static_cast<std::int64_t>(model->derivation.size()), model->words,
+                            model->encoded};
+  favourite.id = store_.add_favourite(project_, favourite);
+  favourites_.push_back(std::move(favourite));
+  send_document();
+}
+
+void ProjectSession::act(const WebSocketPtr&, const api::DropFavourite& drop) {
+  const auto is_it = [&](const StoredFavourite& one) { return one.id == drop.favourite; };
+  if (std::none_of(favourites_.begin(), favourites_.end(), is_it)) throw Error("there is no such favourite");
+  store_.remove_favourite(project_, drop.favourite);
+  std::erase_if(favourites_, is_it);
+  send_document();
+}
+
+void ProjectSession::act(const WebSocketPtr&, const api::ShowFavourite& show) {
+  for (const StoredFavourite& one : favourites_) {
+    if (one.id == show.favourite) return show_by_hand("Show a favourite", "", one.derivation);
+  }
+  throw Error("there is no such favourite");
+}
+
+template <class Other>
+void ProjectSession::act(const WebSocketPtr&, const Other&) {
+  throw Error("this is no request to a project");
+}
+
+}  // namespace espalier::studio
