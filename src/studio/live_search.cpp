@@ -27,6 +27,10 @@ constexpr double kStateEvery = 0.1;
 constexpr std::size_t kMostRises = 200;
 constexpr std::uint32_t kMostShownGenes = 200'000;
 constexpr double kDefaultSeconds = 2;
+// A search of the guided engine that goes on from a model may be stuck with it: after so many seconds one from nothing
+// has its turn, and goes on in its place if it has found something better by then.
+constexpr double kRivalAfter = 0.25, kRivalFor = 0.12;
+constexpr std::uint32_t kDrawnAtOnce = 4;
 
 double seconds_since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
 
@@ -67,23 +71,27 @@ class LiveSearch::Work {
  public:
   Work(LiveSearch& live, std::string shown)
       : live_(live), listener_(live.listener_), bench_(live.read_blob_), shown_(std::move(shown)),
-        executor_(make_executor(), live.give_up_at_) {}
+        executor_(make_executor(), live.give_up_at_), free_(shown_.empty()) {}
 
   bool running() const { return running_; }
 
   void handle(const Wishes& wishes) {
     if (wishes.stop) end_search();
     if (wishes.state && !take(*wishes.state)) return;
+    if (wishes.state) revision_ = wishes.revision;
     if (wishes.seconds) seconds_ = *wishes.seconds;
     if (!bench_.ready()) return;
-    if (wishes.model) shown_ = *wishes.model;
+    if (wishes.model) shown_ = *wishes.model, free_ = false;
     const LiveStart start = wishes.start.value_or(LiveStart::keep);
     if (start == LiveStart::onward && session_ && !wishes.state) {
       budget_ = session_->last().seconds + seconds_;
       running_ = true;
       tell_state(true);
     } else if (wishes.start && (start != LiveStart::keep || running_)) {
-      begin(start == LiveStart::nothing || start == LiveStart::onward ? LiveStart::nothing : LiveStart::shown);
+      const bool anew = start == LiveStart::nothing || start == LiveStart::onward;
+      // What grew freely is no better a beginning than nothing.
+      const bool from_nothing = anew || (free_ && bench_.scene().locks.empty());
+      begin(from_nothing ? LiveStart::nothing : LiveStart::shown, anew);
     } else if (wishes.state || wishes.model) {
       show_again();
     }
@@ -105,6 +113,8 @@ class LiveSearch::Work {
         session_->step();
         spent = budget_spent({.seconds = budget_, .evaluations = {}, .generations = {}}, session_->last());
       } while (spent.empty() && seconds_since(began) < (first ? kFirstSlice : kSlice) && live_.give_up_at_ == 0);
+      session_->pause();
+      if (may_have_rival_ && session_->last().seconds >= kRivalAfter && spent.empty()) meet_rival();
     } catch (const GivenUp&) {
       forget_session();
       tell_state(true);
@@ -115,7 +125,6 @@ class LiveSearch::Work {
       tell_state(true);
       return;
     }
-    session_->pause();
     note_rise();
     const double score = session_->engine().best_score();
     const bool better = !published_ || score > *published_;
@@ -180,11 +189,12 @@ class LiveSearch::Work {
     return setup;
   }
 
-  void begin(LiveStart start) {
+  /// `anew`: without targets another model is wanted.
+  void begin(LiveStart start, bool anew) {
     forget_session();
     try {
       if (!bench_.scene().has_targets) {
-        if (start == LiveStart::nothing) shown_.clear(), ++drawn_;
+        if (anew) shown_.clear(), drawn_ += kDrawnAtOnce;
         show_again();
         return;
       }
@@ -197,6 +207,9 @@ class LiveSearch::Work {
       running_ = true;
       published_.reset();
       rises_.clear();
+      earlier_ = 0;
+      const EngineKind engine = bench_.scene().scene.search.engine;
+      may_have_rival_ = engine == EngineKind::guided && !setup_->founders.empty() && setup_->locks.empty();
     } catch (const GivenUp&) {
       forget_session();
     } catch (const Error& error) {
@@ -214,11 +227,39 @@ class LiveSearch::Work {
       problem("");
       tell_warnings();
       std::optional<Derivation> derivation = adapted();
-      publish(derivation ? std::move(*derivation) : grow_freely(setup_->graph(), setup_->scene, drawn_), 0);
+      free_ = free_ || !derivation;
+      publish(derivation ? std::move(*derivation) : freely_grown(), 0);
     } catch (const Error& error) {
       problem(error.what());
     }
     tell_state(true);
+  }
+
+  /// The largest of a few: many grammars may end at once.
+  Derivation freely_grown() const {
+    Derivation largest;
+    for (std::uint32_t i = 0; i < kDrawnAtOnce; ++i) {
+      Derivation one = grow_freely(setup_->graph(), setup_->scene, drawn_ + i);
+      if (one.size() > largest.size()) largest = std::move(one);
+    }
+    return largest;
+  }
+
+  /// See kRivalAfter.
+  void meet_rival() {
+    may_have_rival_ = false;
+    std::shared_ptr<const Setup> setup = bench_.set_up({});
+    auto rival = std::make_unique<SearchSession>(*setup, executor_);
+    do {
+      rival->step();
+    } while (rival->last().seconds < kRivalFor && live_.give_up_at_ == 0);
+    rival->pause();
+    if (rival->engine().best_score() <= session_->engine().best_score()) return;
+    // What the search had spent stays spent.
+    budget_ -= session_->last().seconds;
+    earlier_ += session_->last().seconds;
+    session_ = std::move(rival);
+    setup_ = std::move(setup);
   }
 
   std::optional<Derivation> adapted() const {
@@ -238,6 +279,7 @@ class LiveSearch::Work {
     const GeneratorGraph& graph = setup_->graph();
     auto model = std::make_shared<ShownModel>();
     model->number = ++number_;
+    model->revision = revision_;
     model->setup = setup_;
     model->derivation = std::move(derivation);
     model->encoded = encode(graph, model->derivation);
@@ -255,6 +297,7 @@ class LiveSearch::Work {
     packet.shown = std::make_shared<const std::string>(to_text(shown_text(*model, explanation, model_, sent)));
     packet.model = std::make_shared<const std::string>(std::move(sent.bytes));
     shown_ = model->encoded;
+    if (steps > 0) free_ = false;
     if (session_) published_ = session_->engine().best_score();
     listener_.shown(model, packet);
     showed_at_ = Clock::now();
@@ -293,7 +336,7 @@ class LiveSearch::Work {
   void note_rise() {
     const StepReport& last = session_->last();
     if (!rises_.empty() && last.best <= rises_.back()[1]) return;
-    rises_.push_back({last.seconds, last.best});
+    rises_.push_back({earlier_ + last.seconds, last.best});
     if (rises_.size() <= kMostRises) return;
     std::vector<std::array<double, 2>> thinned;
     for (std::size_t i = 0; i < rises_.size(); ++i) {
@@ -314,7 +357,7 @@ class LiveSearch::Work {
       const StepReport& last = session_->last();
       state.steps = static_cast<std::int64_t>(last.step);
       state.evaluations = static_cast<std::int64_t>(last.evaluations);
-      state.seconds = last.seconds;
+      state.seconds = earlier_ + last.seconds;
       if (last.step > 0) state.best = last.best;
     }
     listener_.searched(state);
@@ -327,9 +370,12 @@ class LiveSearch::Work {
   PatientExecutor executor_;
   std::shared_ptr<const Setup> setup_;
   std::unique_ptr<SearchSession> session_;  // of setup_
-  bool running_ = false;
+  bool running_ = false, may_have_rival_ = false;
+  bool free_;               // what is shown grew freely
+  double earlier_ = 0;      // seconds of a search that gave way to its rival
   double seconds_ = 0, budget_ = 0;  // as asked for, 0: as the scene says; when the search is over
   std::uint32_t number_ = 0, drawn_ = 0;
+  std::int64_t revision_ = 0;
   std::optional<double> published_;  // best score of the session that was shown
   std::vector<std::array<double, 2>> rises_;
   std::vector<std::string> warned_;
@@ -360,9 +406,10 @@ void LiveSearch::wish(bool leaves_search) {
   changed_.notify_all();
 }
 
-void LiveSearch::take(const StoredState& state, LiveStart start, std::optional<std::string> model) {
+void LiveSearch::take(const StoredState& state, std::int64_t revision, LiveStart start, std::optional<std::string> model) {
   const std::lock_guard lock(mutex_);
   wishes_.state = state;
+  wishes_.revision = revision;
   if (model) wishes_.model = std::move(model);
   // An edit that asks for a search is not undone by one after it that does not.
   if (!wishes_.start || start != LiveStart::keep) wishes_.start = start;

@@ -21,6 +21,7 @@ namespace espalier::studio {
 /// A model as it was published. Never changes; whoever holds it may look into it from any thread.
 struct ShownModel {
   std::uint32_t number = 0;
+  std::int64_t revision = 0;           // of the document
   std::shared_ptr<const Setup> setup;  // its grammar, meshes and targets
   Derivation derivation;
   std::string encoded;                 // the derivation as JSON
@@ -58,7 +59,7 @@ class LiveSearch {
   ~LiveSearch();
 
   /// The project has come to this state. `model`: to be shown instead, as JSON.
-  void take(const StoredState& state, LiveStart start, std::optional<std::string> model = {});
+  void take(const StoredState& state, std::int64_t revision, LiveStart start, std::optional<std::string> model = {});
   /// Searches for so many seconds (more); 0: as many as the time before, or as the scene says.
   void start(LiveStart start, double seconds);
   void stop();
@@ -68,6 +69,7 @@ class LiveSearch {
 
   struct Wishes {
     std::optional<StoredState> state;
+    std::int64_t revision = 0;  // of the state
     std::optional<std::string> model;
     std::optional<LiveStart> start;
     std::optional<double> seconds;

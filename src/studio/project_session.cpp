@@ -50,7 +50,7 @@ ProjectSession::ProjectSession(Store& store, std::int64_t project)
   live_ = std::make_unique<LiveSearch>([&store, project](const std::string& hash) { return store.blob(project, hash); },
                                        self, shown);
   // Where nothing was ever shown, the scene that it was made with is searched at once.
-  live_->take(state_, LiveStart::keep);
+  live_->take(state_, now_.revision, LiveStart::keep);
   if (shown.empty() && scene_has_targets(state_.scene)) live_->start(LiveStart::nothing, 0);
   thread_ = std::thread([this] { run(); });
 }
@@ -353,16 +353,16 @@ void ProjectSession::take_now(StoredProjectState now) {
 
 void ProjectSession::change(const StoredState& next, const StoredStep& step, LiveStart start,
                             std::optional<std::string> model, const std::map<std::string, std::string>& blobs) {
-  // The search begins while the disk is written; files it can read only from there.
+  // The search begins while the disk is written (an edit adds one to the revision); files it can read only from there.
   const bool early = blobs.empty();
-  if (early) live_->take(next, start, model);
+  if (early) live_->take(next, now_.revision + 1, start, model);
   try {
     take_now(store_.edit(project_, next, step, blobs));
   } catch (...) {
-    if (early) live_->take(now_.state, LiveStart::keep, step.model_before);
+    if (early) live_->take(now_.state, now_.revision, LiveStart::keep, step.model_before);
     throw;
   }
-  if (!early) live_->take(next, start, model);
+  if (!early) live_->take(next, now_.revision, start, model);
   send_document();
 }
 
@@ -381,7 +381,7 @@ void ProjectSession::act(const WebSocketPtr&, const api::Edit& edit) {
 
 void ProjectSession::moved(const std::optional<StoredMove>& move, const char* nothing) {
   if (!move) throw Error(nothing);
-  live_->take(move->now.state, move->search ? LiveStart::shown : LiveStart::keep, move->model);
+  live_->take(move->now.state, move->now.revision, move->search ? LiveStart::shown : LiveStart::keep, move->model);
   take_now(move->now);
   send_document();
 }

@@ -165,7 +165,8 @@ ReadScene read_scene(std::string_view json, const SceneSurroundings& surrounding
 
 std::map<std::string, std::string> attributes_of(std::string_view json, const std::map<std::string, Kind>& known) {
   std::map<std::string, std::string> result;
-  for (const auto& [name, value] : attributes_json(parse(json), known).items()) {
+  const Json attributes = attributes_json(parse(json), known);
+  for (const auto& [name, value] : attributes.items()) {
     if (value.is_string()) result[name] = value.get<std::string>();
     if (value.is_boolean()) result[name] = value.get<bool>() ? "true" : "false";
     if (value.is_number()) result[name] = fmt::format("{}", value.get<double>());

@@ -29,6 +29,7 @@ api::Shown shown_text(const ShownModel& shown, const Explanation& explanation, c
   const GeneratorGraph& graph = shown.setup->graph();
   api::Shown text;
   text.model = shown.number;
+  text.revision = shown.revision;
   text.genes = static_cast<std::int64_t>(shown.derivation.size());
   text.parts = std::count_if(model.instances.begin(), model.instances.end(), in_full);
   text.bones = static_cast<std::int64_t>(model.bones.size());
