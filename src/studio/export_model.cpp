@@ -85,7 +85,7 @@ Provenance provenance_of(const ShownModel& shown) {
   p.steps = shown.steps;
   p.derivation = hash_text(shown.derivation);
   p.score = shown.score;
-  if (shown.optimum > 0) p.optimum = shown.optimum;
+  if (shown.score) p.optimum = shown.optimum;
   // Settings are what a search is made again from, so they stand only where that finds this model.
   if (shown.steps > 0) {
     p.engine = name_of(setup.scene.search.engine);
