@@ -1,8 +1,9 @@
 #pragma once
 // One gene of a shown model, as the page asks for it.
 
+#include <studio_types.h>
+
 #include "studio/live_search.h"
-#include "studio_types.h"
 
 namespace espalier::studio {
 

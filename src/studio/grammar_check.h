@@ -8,8 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include <studio_types.h>
+
 #include "grammar/compiler.h"
-#include "studio_types.h"
 
 namespace espalier::studio {
 

@@ -12,9 +12,10 @@
 #include <thread>
 #include <vector>
 
+#include <studio_types.h>
+
 #include "studio/outbox.h"
 #include "studio/workbench.h"
-#include "studio_types.h"
 
 namespace espalier::studio {
 

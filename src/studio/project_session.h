@@ -16,12 +16,13 @@
 #include <thread>
 #include <vector>
 
+#include <studio_types.h>
+
 #include "studio/grammar_check.h"
 #include "studio/live_search.h"
 #include "studio/reach.h"
 #include "studio/store.h"
 #include "studio/web_server.h"
-#include "studio_types.h"
 
 namespace espalier::studio {
 

@@ -8,9 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include <studio_types.h>
+
 #include "grammar/imports.h"
 #include "studio/store.h"
-#include "studio_types.h"
 
 namespace espalier::studio {
 

@@ -1,11 +1,12 @@
 #pragma once
 // What is said of a model that is shown.
 
+#include <studio_types.h>
+
 #include "model/model.h"
 #include "score/target.h"
 #include "studio/live_search.h"
 #include "studio/model_message.h"
-#include "studio_types.h"
 
 namespace espalier::studio {
 

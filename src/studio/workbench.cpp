@@ -151,7 +151,12 @@ std::shared_ptr<const Setup> Workbench::set_up(const std::optional<StartModel>& 
     for (const std::string& lock : start->locks) scene.start.locks.push_back({lock, LockScope::subtree});
   }
   try {
-    return espalier::set_up(scene, grammar_, *meshes_);
+    const bool staged = probed_ && probed_->grammar.graph == grammar_.graph;
+    std::shared_ptr<Setup> setup = espalier::set_up(scene, grammar_, *meshes_, staged ? probed_.get() : nullptr);
+    // Many setups are kept with the models that they showed; of the probes only the stage is of use here.
+    if (setup->probes) probed_ = setup;
+    setup->probes.reset();
+    return setup;
   } catch (const Error& error) {
     // The folder's own name says nothing to people.
     std::string message = error.what();

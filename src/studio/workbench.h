@@ -72,6 +72,7 @@ class Workbench {
   LoadedGrammar grammar_;
   std::uint32_t grammar_number_ = 0;
   ReadScene scene_;
+  std::shared_ptr<const Setup> probed_;  // the last whose stage came from probes
 };
 
 }  // namespace espalier::studio
