@@ -15,8 +15,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <studio_types.h>
+
 #include "base/error.h"
-#include "studio_types.h"
 
 namespace espalier::api {
 
