@@ -159,8 +159,8 @@ TEST(SceneCurves, EveryBadValueOfTheGuidedEngineNamesFilePlaceAndKey) {
     EXPECT_THAT(text, StartsWith("tree.toml:6:")) << line;
     EXPECT_THAT(text, HasSubstr(error)) << line;
   }
-  EXPECT_THAT(error_of("search.engine = \"guided\"\n[engine.guided]\nlast_particles = 98\n" + curve),
-              StartsWith("tree.toml:5:1: engine.guided.last_particles must be between 2 and 97, got 98"));
+  EXPECT_THAT(error_of("search.engine = \"guided\"\n[engine.guided]\nlast_particles = 101\n" + curve),
+              StartsWith("tree.toml:5:1: engine.guided.last_particles must be between 2 and 100, got 101"));
 }
 
 TEST(SceneCurves, SettingsOfTheGuidedEngineReadBackEqual) {
