@@ -247,6 +247,7 @@ void declare_studio(CLI::App& app, CommandLine& line) {
   verb->add_option("project", o.project, "Name of a project, made if there is none; or a project file (.espalier)");
   verb->add_option("--port", o.port, "Of 127.0.0.1; 0: any that is free (7411)");
   verb->add_flag("!--no-open", o.open, "Print the link, open no browser");
+  verb->add_flag("--new-token", o.new_token, "Make a new link: those of earlier starts are not served any more");
   verb->add_option("--data", o.data, "SQLite file that projects are kept in (~/.local/share/espalier/studio.sqlite)");
   verb->add_option("--page", o.page, "Folder of the page (studio-page beside the program)");
   verb->callback([&line] { line.verb = [&line] { return studio_verb(line.studio); }; });

@@ -18,7 +18,6 @@
 #include "io/file.h"
 #include "studio/project_file.h"
 #include "studio/studio.h"
-#include "studio/web_guard.h"
 #include "studio/web_server.h"
 
 namespace espalier {
@@ -81,7 +80,7 @@ int studio_verb(const StudioOptions& options) {
   if (!options.project.empty()) place = fmt::format("&project={}", project_of(studio, options.project));
   studio::WebServerSettings settings;
   settings.port = options.port;
-  settings.token = studio::make_token();
+  settings.token = studio.token(options.new_token);
   settings.page_folder = options.page.empty() ? standard_page() : options.page;
   const std::atomic<bool>* const stop = stop_on_signals();
   const studio::WebServer server(settings, studio);

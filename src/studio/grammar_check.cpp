@@ -120,8 +120,9 @@ api::Attribute attribute_of(const std::string& name, const CheckedAttribute& che
   attribute.standard = shown(checked.default_value);
   const double unit = angle ? 180 / kPi : 1;
   if (checked.ranged) attribute.min = rounded(checked.low * unit), attribute.max = rounded(checked.high * unit);
-  std::string words = checked.label.empty() ? comment : checked.label;
-  if (!words.empty()) attribute.comment = std::move(words);
+  if (checked.step > 0) attribute.step = rounded(checked.step * unit);
+  if (!checked.label.empty()) attribute.label = checked.label;
+  if (!comment.empty()) attribute.comment = comment;
   return attribute;
 }
 

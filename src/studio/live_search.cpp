@@ -91,16 +91,16 @@ class LiveSearch::Work {
       const bool anew = start == LiveStart::nothing || start == LiveStart::onward;
       // What grew freely is no better a beginning than nothing.
       const bool from_nothing = anew || (free_ && bench_.scene().locks.empty());
-      begin(from_nothing ? LiveStart::nothing : LiveStart::shown, anew);
+      begin(from_nothing ? LiveStart::nothing : LiveStart::shown, anew, wishes.timed);
     } else if (wishes.state || wishes.model) {
       show_again();
     }
   }
 
   /// After an error that was not foreseen.
-  void give_up() {
-    session_.reset();
-    running_ = false;
+  void give_up(const char* why) {
+    note(api::LogLevel::error, fmt::format("the search was given up: {}", why));
+    forget_session();
     tell_state(true);
   }
 
@@ -121,7 +121,7 @@ class LiveSearch::Work {
       return;
     } catch (const Error& error) {
       forget_session();
-      listener_.noted(api::LogLevel::error, error.what());
+      note(api::LogLevel::error, error.what());
       tell_state(true);
       return;
     }
@@ -149,11 +149,14 @@ class LiveSearch::Work {
     return false;
   }
 
-  void problem(const std::string& text) {
+  void problem(const std::string& words) {
+    const std::string text = bench_.as_named(words);
     if (text == problem_) return;
     problem_ = text;
     listener_.scene_problem(text);
   }
+
+  void note(api::LogLevel level, const std::string& text) { listener_.noted(level, bench_.as_named(text)); }
 
   void end_search() {
     if (session_ && session_->last().step > 0) {
@@ -178,19 +181,19 @@ class LiveSearch::Work {
       if (!locked && locks.empty()) continue;
       try {
         std::shared_ptr<const Setup> setup = bench_.set_up(StartModel{shown_, locked ? locks : std::vector<std::string>()});
-        if (!locked) listener_.noted(api::LogLevel::warning, "locks are left out: " + why);
+        if (!locked) note(api::LogLevel::warning, "locks are left out: " + why);
         return setup;
       } catch (const Error& error) {
         why = error.what();
       }
     }
     std::shared_ptr<const Setup> setup = bench_.set_up({});  // throws what has nothing to do with the start
-    listener_.noted(api::LogLevel::info, "the search starts from nothing: " + why);
+    note(api::LogLevel::info, "the search starts from nothing: " + why);
     return setup;
   }
 
-  /// `anew`: without targets another model is wanted.
-  void begin(LiveStart start, bool anew) {
+  /// `anew`: without targets another model is wanted. `timed`: for the seconds that were asked for; else the scene's come first.
+  void begin(LiveStart start, bool anew, bool timed) {
     forget_session();
     try {
       if (!bench_.scene().has_targets) {
@@ -203,7 +206,8 @@ class LiveSearch::Work {
       tell_warnings();
       // Steps of the guided engine are short, and one thread is quicker there than several.
       session_ = std::make_unique<SearchSession>(*setup_, executor_);
-      budget_ = seconds_ > 0 ? seconds_ : bench_.scene().scene.budget.seconds.value_or(kDefaultSeconds);
+      const double before = seconds_ > 0 ? seconds_ : kDefaultSeconds;
+      budget_ = timed ? before : bench_.scene().scene.budget.seconds.value_or(before);
       running_ = true;
       published_.reset();
       rises_.clear();
@@ -330,7 +334,7 @@ class LiveSearch::Work {
   void tell_warnings() {
     if (setup_->warnings == warned_) return;
     warned_ = setup_->warnings;
-    for (const std::string& warning : warned_) listener_.noted(api::LogLevel::warning, warning);
+    for (const std::string& warning : warned_) note(api::LogLevel::warning, warning);
   }
 
   void note_rise() {
@@ -373,7 +377,7 @@ class LiveSearch::Work {
   bool running_ = false, may_have_rival_ = false;
   bool free_;               // what is shown grew freely
   double earlier_ = 0;      // seconds of a search that gave way to its rival
-  double seconds_ = 0, budget_ = 0;  // as asked for, 0: as the scene says; when the search is over
+  double seconds_ = 0, budget_ = 0;  // as last asked for, 0: never; when the search is over
   std::uint32_t number_ = 0, drawn_ = 0;
   std::int64_t revision_ = 0;
   std::optional<double> published_;  // best score of the session that was shown
@@ -412,14 +416,15 @@ void LiveSearch::take(const StoredState& state, std::int64_t revision, LiveStart
   wishes_.revision = revision;
   if (model) wishes_.model = std::move(model);
   // An edit that asks for a search is not undone by one after it that does not.
-  if (!wishes_.start || start != LiveStart::keep) wishes_.start = start;
+  if (!wishes_.start || start != LiveStart::keep) wishes_.start = start, wishes_.timed = false;
   wish(true);
 }
 
 void LiveSearch::start(LiveStart start, double seconds) {
   const std::lock_guard lock(mutex_);
   wishes_.start = start;
-  if (seconds > 0) wishes_.seconds = seconds;
+  wishes_.seconds = seconds;
+  wishes_.timed = true;
   wishes_.stop = false;
   wish(start != LiveStart::onward);
 }
@@ -453,8 +458,7 @@ void LiveSearch::run(std::string shown) {
       if (wishes.any()) work->handle(wishes);
       if (work->running()) work->slice();
     } catch (const std::exception& error) {
-      listener_.noted(api::LogLevel::error, fmt::format("the search was given up: {}", error.what()));
-      work->give_up();
+      work->give_up(error.what());
     }
   }
 }

@@ -61,7 +61,8 @@ class LiveSearch {
 
   /// The project has come to this state. `model`: to be shown instead, as JSON.
   void take(const StoredState& state, std::int64_t revision, LiveStart start, std::optional<std::string> model = {});
-  /// Searches for so many seconds (more); 0: as many as the time before, or as the scene says.
+  /// Searches for so many seconds (more). Searches that `take` begins have the seconds of the scene's budget, else those of
+  /// the last start.
   void start(LiveStart start, double seconds);
   void stop();
 
@@ -74,6 +75,7 @@ class LiveSearch {
     std::optional<std::string> model;
     std::optional<LiveStart> start;
     std::optional<double> seconds;
+    bool timed = false;  // the search that begins has these seconds, whatever the scene says
     bool stop = false, end = false;
     bool any() const { return state || model || start || stop || end; }
   };

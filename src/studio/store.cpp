@@ -1,11 +1,14 @@
 #include "studio/store.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <set>
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -38,11 +41,26 @@ create index favourite_project on favourite (project);
 pragma user_version = 1;
 )";
 
+constexpr const char* kVersion2 = R"(
+create table setting (name text primary key, value text not null) without rowid;
+pragma user_version = 2;
+)";
+
 double now() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
 [[noreturn]] void fail_no_project(std::int64_t project) { throw Error(fmt::format("there is no project {}", project)); }
+
+/// The file of projects holds the key to the server. SQLite gives the files beside it the same mode.
+void keep_private(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  if (file < 0) throw Error(fmt::format("{}: cannot be written", path));
+  const bool done = fchmod(file, 0600) == 0;
+  close(file);
+  if (!done) throw Error(fmt::format("{}: cannot be kept from other people's eyes: {}", path, std::strerror(errno)));
+  for (const char* beside : {"-wal", "-shm"}) chmod((path + beside).c_str(), 0600);  // left by a server that was killed
+}
 
 void check_name(const std::string& name) {
   if (name.find_first_not_of(' ') == std::string::npos) throw Error("a project must have a name");
@@ -80,6 +98,7 @@ Store::Store(const std::string& path) {
     throw Error(fmt::format("{}: another studio has these projects open; use its link, or other --data", path));
   }
   try {
+    keep_private(path);
     database_.emplace(path);
     migrate();
   } catch (...) {
@@ -104,7 +123,8 @@ void Store::migrate() {
   }
   if (version == kVersion) return;
   Transaction transaction(*database_);
-  database_->run(kVersion1);
+  if (version < 1) database_->run(kVersion1);
+  database_->run(kVersion2);
   transaction.commit();
 }
 
@@ -298,6 +318,18 @@ std::int64_t Store::add_favourite(std::int64_t project, const StoredFavourite& f
 void Store::remove_favourite(std::int64_t project, std::int64_t favourite) {
   const std::lock_guard lock(mutex_);
   database_->prepare("delete from favourite where project = ? and id = ?").bind(project).bind(favourite).run();
+}
+
+std::optional<std::string> Store::setting(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  Statement ask = database_->prepare("select value from setting where name = ?");
+  if (!ask.bind(name).step()) return std::nullopt;
+  return ask.text(0);
+}
+
+void Store::set_setting(const std::string& name, const std::string& value) {
+  const std::lock_guard lock(mutex_);
+  database_->prepare("insert or replace into setting (name, value) values (?, ?)").bind(name).bind(value).run();
 }
 
 }  // namespace espalier::studio

@@ -83,10 +83,10 @@ class Store {
   static constexpr std::uint64_t kMostFileBytes = 64u << 20;
   static constexpr std::uint64_t kMostProjectBytes = 512u << 20;  // of files that some state names
   static constexpr std::uint64_t kMostHistoryBytes = 128u << 20;  // of texts; older steps go first
-  static constexpr int kVersion = 1;
+  static constexpr int kVersion = 2;
 
-  /// Opens or makes the file; older versions of it are brought up to date, newer ones refused. Throws Error, also where
-  /// another server has it open. All calls throw Error where the disk fails; then nothing was changed.
+  /// Opens or makes the file, which only its owner may then read; older versions of it are brought up to date, newer ones
+  /// refused. Throws Error, also where another server has it open. All calls throw Error where the disk fails; then nothing was changed.
   explicit Store(const std::string& path);
   ~Store();
 
@@ -112,6 +112,10 @@ class Store {
   std::vector<StoredFavourite> favourites(std::int64_t project);
   std::int64_t add_favourite(std::int64_t project, const StoredFavourite& favourite);
   void remove_favourite(std::int64_t project, std::int64_t favourite);
+
+  /// What belongs to no project, by its name.
+  std::optional<std::string> setting(const std::string& name);
+  void set_setting(const std::string& name, const std::string& value);
 
  private:
   struct Head {

@@ -261,6 +261,15 @@ HttpResponse Studio::export_project(std::int64_t project, const std::string& for
   return export_model(*shown, format, now.project.name);
 }
 
+std::string Studio::token(bool fresh) {
+  constexpr const char* kName = "token";
+  const std::optional<std::string> kept = store_.setting(kName);
+  if (kept && is_token(*kept) && !fresh) return *kept;
+  std::string made = make_token();
+  store_.set_setting(kName, made);
+  return made;
+}
+
 std::int64_t Studio::find_or_create(const std::string& name) {
   for (const StoredProject& project : store_.projects()) {
     if (project.name == name) return project.id;

@@ -28,6 +28,9 @@ class Studio final : public WebApp {
   void closed(const WebSocketPtr& socket) override;
   HttpResponse answer(const HttpRequest& request) override;
 
+  /// What pages must know to be served. The same for the same file of projects, so that pages find their way back after
+  /// the server was started again, unless a `fresh` one is asked for. Throws Error.
+  std::string token(bool fresh = false);
   /// The project of that name; a new one where there is none. Throws Error.
   std::int64_t find_or_create(const std::string& name);
   /// Takes in a project file; returns its number. Throws Error.

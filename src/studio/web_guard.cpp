@@ -13,17 +13,22 @@ namespace espalier::studio {
 namespace {
 
 constexpr std::string_view kHosts[] = {"localhost", "127.0.0.1", "[::1]"};
+constexpr std::size_t kTokenBytes = 32;
 
 }  // namespace
 
 std::string make_token() {
-  std::array<unsigned char, 32> bytes{};
+  std::array<unsigned char, kTokenBytes> bytes{};
   if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
     throw Error("the system gives no random numbers for the token");
   }
   std::string text;
   for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
   return text;
+}
+
+bool is_token(std::string_view text) {
+  return text.size() == 2 * kTokenBytes && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
 bool same_token(std::string_view given, std::string_view token) {
@@ -48,16 +53,14 @@ bool origin_allowed(std::string_view origin, std::uint16_t port) {
 }
 
 std::string guard_headers(std::uint16_t port) {
-  // Older browsers do not take 'self' to mean the WebSocket too. CodeMirror and the page's own views set styles.
-  std::string sockets;
-  for (const std::string_view name : kHosts) sockets += fmt::format(" ws://{}:{}", name, port);
+  // Older browsers do not take 'self' to mean the WebSocket too. A policy has no way to name [::1].
   return fmt::format(
-      "Content-Security-Policy: default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
-      "img-src 'self' blob: data:; font-src 'self'; connect-src 'self'{}; worker-src 'self' blob:; base-uri 'none'; "
+      "Content-Security-Policy: default-src 'none'; script-src 'self'; style-src 'self'; "
+      "img-src 'self' blob: data:; font-src 'self'; connect-src 'self' ws://localhost:{0} ws://127.0.0.1:{0}; worker-src 'self' blob:; base-uri 'none'; "
       "form-action 'none'; frame-ancestors 'none'\r\n"
       "X-Content-Type-Options: nosniff\r\nX-Frame-Options: DENY\r\nReferrer-Policy: no-referrer\r\n"
       "Cross-Origin-Opener-Policy: same-origin\r\nCross-Origin-Resource-Policy: same-origin\r\n",
-      sockets);
+      port);
 }
 
 bool is_plain_path(std::string_view path) {

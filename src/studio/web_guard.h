@@ -10,6 +10,9 @@ namespace espalier::studio {
 /// 256 random bits as hex digits. Throws Error where the system gives none.
 std::string make_token();
 
+/// Whether it looks like one.
+bool is_token(std::string_view text);
+
 /// In time that depends on the lengths alone.
 bool same_token(std::string_view given, std::string_view token);
 

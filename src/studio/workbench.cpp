@@ -75,7 +75,8 @@ class Workbench::Meshes final : public MeshSource {
 };
 
 Workbench::Workbench(ReadBlob read_blob)
-    : read_blob_(std::move(read_blob)), meshes_(std::make_unique<Meshes>(folder_.file(""))) {
+    : real_folder_((fs::canonical(folder_.file("")) / "").string()), read_blob_(std::move(read_blob)),
+      meshes_(std::make_unique<Meshes>(folder_.file(""))) {
   write(folder_.file("shapes/box.obj"), obj_of(make_primitive(MeshKind::box, 1, 0)));
   write(folder_.file("shapes/sphere.obj"), obj_of(make_primitive(MeshKind::sphere, 1, 0)));
   write(folder_.file("shapes/cylinder.obj"), obj_of(make_primitive(MeshKind::cylinder, 1, 48)));
@@ -158,13 +159,16 @@ std::shared_ptr<const Setup> Workbench::set_up(const std::optional<StartModel>& 
     setup->probes.reset();
     return setup;
   } catch (const Error& error) {
-    // The folder's own name says nothing to people.
-    std::string message = error.what();
-    for (std::size_t at; (at = message.find(folder_.file(""))) != std::string::npos;) {
-      message.erase(at, folder_.file("").size());
-    }
-    throw Error(message);
+    throw Error(as_named(error.what()));
   }
+}
+
+std::string Workbench::as_named(std::string text) const {
+  // Some of what reads files says where they really are.
+  for (const std::string& folder : {real_folder_, folder_.file("")}) {
+    for (std::size_t at; (at = text.find(folder)) != std::string::npos;) text.erase(at, folder.size());
+  }
+  return text;
 }
 
 }  // namespace espalier::studio

@@ -52,6 +52,10 @@ class Workbench {
   /// Counts the grammars that were compiled: another number may mean other meshes.
   std::uint32_t grammar_number() const { return grammar_number_; }
 
+  /// The text with the files of the project called as it calls them: the folder that they are put into for now says
+  /// nothing to people.
+  std::string as_named(std::string text) const;
+
   /// The state made ready to run, with the scene's seed or another. Throws Error. Only when ready.
   std::shared_ptr<const Setup> set_up(const std::optional<StartModel>& start, std::optional<std::uint64_t> seed = {});
 
@@ -62,6 +66,7 @@ class Workbench {
   LoadedGrammar compile(const StoredState& state);
 
   TemporaryFolder folder_;
+  std::string real_folder_;  // the same without links
   ReadBlob read_blob_;
   std::unique_ptr<Meshes> meshes_;
   std::map<std::string, std::string> placed_;  // hash by path

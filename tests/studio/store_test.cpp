@@ -3,6 +3,7 @@
 #include <csignal>
 #include <fstream>
 
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -144,6 +145,39 @@ TEST_F(StoreTest, NewerAndDamagedFilesAndThoseInUseAreRefused) {
   std::ofstream(damaged) << "This is no database at all, but a text that is long enough to look like a header.";
   EXPECT_THROW(Store{damaged}, Error);
   EXPECT_THROW(Store{folder_.file("no/such/folder.sqlite")}, Error);
+}
+
+TEST_F(StoreTest, SettingsAreKeptAndOnlyTheOwnerMayRead) {
+  EXPECT_FALSE(store_->setting("a"));
+  store_->set_setting("a", "1");
+  store_->set_setting("a", "2");
+  store_->set_setting("b", "3");
+  const auto mode = [](const std::string& file) {
+    struct stat about {};
+    return stat(file.c_str(), &about) == 0 ? about.st_mode & 0777 : 0;
+  };
+  EXPECT_EQ(mode(path()), 0600u);
+  EXPECT_EQ(mode(path() + "-wal"), 0600u);
+  store_.reset();
+  chmod(path().c_str(), 0644);
+  open();
+  EXPECT_EQ(mode(path()), 0600u);
+  EXPECT_EQ(store_->setting("a"), "2");
+  EXPECT_EQ(store_->setting("b"), "3");
+}
+
+TEST_F(StoreTest, AFileOfTheFirstVersionIsBroughtUpToDate) {
+  const std::int64_t project = store_->create("a", {.grammar = "0"}, {});
+  store_.reset();
+  {
+    Database database(path());
+    database.run("drop table setting; pragma user_version = 1");
+  }
+  open();
+  EXPECT_EQ(store_->open(project).state.grammar, "0");
+  store_->set_setting("a", "1");
+  open();
+  EXPECT_EQ(store_->setting("a"), "1");
 }
 
 /// Edits as fast as it can and says each number once its edit is done, until it is killed.

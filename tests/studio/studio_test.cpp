@@ -196,6 +196,60 @@ TEST_F(StudioTest, ACurveIsFollowedAndTheSearchStopsAndGoesOn) {
   EXPECT_GE(page.seen["search_state"]["best"], stopped["best"]);
 }
 
+TEST_F(StudioTest, ASearchThatAnEditBeginsTakesTheTimeOfTheScene) {
+  Page page = this->page();
+  page.ask("create_project", {{"name", "a"}});
+  page.wait_for_model();
+  const auto stands = [](const json& state) { return !state["running"]; };
+  const auto runs = [](const json& state) { return state["running"] && state["steps"] > 0; };
+  page.ask("edit", {{"label", "Draw"}, {"scene", page.scene_with("curves", kCurves)}});
+  page.ask("start_search", {{"seconds", 1000}, {"from", "nothing"}});
+  ASSERT_TRUE(page.wait_for("search_state", runs));
+  // Nothing but its time ends this one.
+  page.seen.erase("search_state");
+  page.ask("edit", {{"label", "Time"}, {"scene", page.scene_with("budget", R"({"seconds": 0.2})")}, {"search", true}});
+  ASSERT_TRUE(page.wait_for("search_state", runs));
+  ASSERT_TRUE(page.wait_for("search_state", stands));
+  EXPECT_GE(page.seen["search_state"]["seconds"], 0.2);
+  // What is asked for goes before what the scene says.
+  page.ask("start_search", {{"seconds", 1000}, {"from", "shown"}});
+  ASSERT_TRUE(page.wait_for("search_state", [](const json& state) { return state["running"] && state["seconds"] > 0.5; }));
+}
+
+TEST_F(StudioTest, AttributesSayTheirLabelsAndSteps) {
+  Page page = this->page();
+  page.ask("create_project", {{"name", "a"}});
+  page.ask("edit", page.edit("grammar a 1\n\n# How many there are.\nattr n = 3 in 1..9 by 2 \"Tree/Forks\"\n"
+                             "attr bend = 30deg in 0deg..90deg by 5deg\nstart A\nrule A { for i in 1..n { emit box rotate x bend } }\n"));
+  const std::int64_t revision = page.seen["document"]["revision"];
+  ASSERT_TRUE(page.wait_for("checked", [&](const json& checked) { return checked["revision"] == revision; }));
+  ASSERT_EQ(page.seen["checked"]["attributes"].size(), 2u) << page.seen["checked"];
+  const json n = page.seen["checked"]["attributes"][0], bend = page.seen["checked"]["attributes"][1];
+  EXPECT_EQ(n["label"], "Tree/Forks");
+  EXPECT_EQ(n["comment"], "How many there are.");
+  EXPECT_EQ(n["step"], 2);
+  EXPECT_EQ(bend["step"], 5);
+  EXPECT_EQ(bend["unit"], "deg");
+  EXPECT_FALSE(bend.contains("label"));
+  EXPECT_FALSE(bend.contains("comment"));
+}
+
+TEST_F(StudioTest, FilesAreCalledAsTheProjectCallsThem) {
+  Page page = this->page();
+  page.ask("create_project", {{"name", "a"}});
+  page.wait_for_model();
+  // The rule that nobody asks for is a warning of the log.
+  page.ask("edit", page.edit("grammar a 1\nstart A\nrule A { emit box }\nrule B { emit box }\n"));
+  ASSERT_TRUE(page.wait_for("log"));
+  EXPECT_THAT(page.seen["log"]["text"], HasSubstr("grammar.esp:4"));
+  EXPECT_THAT(page.seen["log"]["text"], testing::Not(HasSubstr("/")));
+  page.ask("edit", page.edit("grammar a 1\nmesh m = mesh(\"none.obj\")\nstart A\nrule A { emit m }\n"));
+  const auto faulty = [](const json& checked) { return checked.contains("scene_problem"); };
+  ASSERT_TRUE(page.wait_for("checked", faulty));
+  EXPECT_THAT(page.seen["checked"]["scene_problem"], HasSubstr("none.obj"));
+  EXPECT_THAT(page.seen["checked"]["scene_problem"], testing::Not(HasSubstr("/")));
+}
+
 TEST_F(StudioTest, UndoAndRedoTakeBackScenesDrawsAndLocks) {
   Page page = this->page();
   page.ask("create_project", {{"name", "a"}});

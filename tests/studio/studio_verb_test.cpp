@@ -21,14 +21,15 @@ using nlohmann::json;
 /// A server in a process of its own; its link is read from what it prints.
 class Program {
  public:
-  explicit Program(const std::string& data, const std::string& project = "p") {
+  explicit Program(const std::string& data, std::uint16_t at = 0, const char* more = nullptr) {
     int ends[2];
     if (pipe(ends) != 0) return;
     child_ = fork();
     if (child_ == 0) {
       dup2(ends[1], STDOUT_FILENO);
       close(ends[0]);
-      execl(ESPALIER_PROGRAM, "espalier", "studio", project.c_str(), "--port", "0", "--no-open", "--data", data.c_str(), nullptr);
+      execl(ESPALIER_PROGRAM, "espalier", "studio", "p", "--port", std::to_string(at).c_str(), "--no-open", "--data", data.c_str(),
+            more, nullptr);
       _exit(127);
     }
     close(ends[1]);
@@ -112,6 +113,30 @@ TEST(StudioVerb, WhatWasAnsweredSurvivesBeingKilled) {
     usleep(random.below(15'000));
     program.end(SIGKILL);
   }
+}
+
+TEST(StudioVerb, TheOldLinkWorksAfterItWasKilledAndStartedAgain) {
+  const TemporaryFolder folder;
+  const std::string data = folder.file("studio.sqlite");
+  Program program(data);
+  ASSERT_NE(program.port, 0);
+  const std::uint16_t port = program.port;
+  const std::string token = program.token;
+  EXPECT_EQ(WebSocketClient(port, token).status(), 101);
+  program.end(SIGKILL);
+  Program again(data, port);
+  ASSERT_EQ(again.port, port);
+  EXPECT_EQ(again.token, token);
+  WebSocketClient client(port, token);
+  EXPECT_EQ(opened(client, program.number)["project"]["name"], "p");
+  again.end(SIGKILL);
+  Program other(data, 0, "--new-token");
+  ASSERT_NE(other.port, 0);
+  EXPECT_NE(other.token, token);
+  EXPECT_EQ(WebSocketClient(other.port, token).status(), 403);
+  EXPECT_EQ(WebSocketClient(other.port, other.token).status(), 101);
+  Program elsewhere(folder.file("other.sqlite"));
+  EXPECT_NE(elsewhere.token, other.token);
 }
 
 TEST(StudioVerb, EndsInOrderWhenAsked) {

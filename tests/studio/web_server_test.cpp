@@ -66,7 +66,8 @@ TEST_F(WebServerTest, ServesThePageWithHeadersThatGuardIt) {
   const Answer page = ask(port(), "GET /");
   EXPECT_EQ(page.status, 200);
   EXPECT_EQ(page.body, "<!doctype html>the page");
-  EXPECT_THAT(page.head, HasSubstr("Content-Security-Policy: default-src 'none'; script-src 'self';"));
+  EXPECT_THAT(page.head, HasSubstr("Content-Security-Policy: default-src 'none'; script-src 'self'; style-src 'self';"));
+  EXPECT_THAT(page.head, HasSubstr(fmt::format("connect-src 'self' ws://localhost:{0} ws://127.0.0.1:{0};", port())));
   EXPECT_THAT(page.head, HasSubstr("nosniff"));
   EXPECT_THAT(page.head, testing::Not(HasSubstr("Access-Control")));
   EXPECT_EQ(ask(port(), "GET /assets/a.js").body, "script");

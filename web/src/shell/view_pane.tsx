@@ -62,7 +62,7 @@ function follow(studio: Studio, view: StudioView): (() => void)[] {
       const id = project.value;
       if (id !== undefined) view.setScene(studio.scene.value, (path) => studio.files.url(id, path));
     }),
-    effect(() => view.setHidden?.(state.hidden.value)),
+    effect(() => view.setHidden(state.hidden.value)),
     effect(() => {
       const selection = state.selection.value;
       view.setSelection(selection?.kind === "silhouette" ? null : selection);

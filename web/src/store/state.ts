@@ -3,7 +3,7 @@
 import { signal } from "@preact/signals";
 import type { Checked, Document, Gene, Log, Place, ProjectInfo, Sample, SearchState, Shown } from "../api";
 import type { Status } from "../connection/connection";
-import type { Brush, Selection, Tool } from "../view/host";
+import type { Brush, Hidden, Selection, Tool } from "../view/host";
 
 /** The view knows nothing of selected silhouettes: they are pictures beside the model. */
 export type TargetSelection = Selection | { kind: "silhouette"; index: number };
@@ -18,12 +18,6 @@ export interface Notice {
   number: number;
   text: string;
   bad: boolean;
-}
-
-/** Targets that are not drawn; they count all the same. */
-export interface Hidden {
-  curves: readonly number[];
-  meshes: readonly number[];
 }
 
 /** Where the editor shall go; a new object each time. */

@@ -4,7 +4,8 @@ import type { Camera, Scene } from "../api";
 import type { Desk, Under } from "./desk";
 import { Draft } from "./draft";
 import { Hands } from "./hands";
-import type { Brush, Highlight, Look, Selection, Side, StudioView, Tool, ViewHost } from "./host";
+import { kNoneHidden, type Brush, type Hidden, type Highlight, type Look, type Selection, type Side, type StudioView,
+  type Tool, type ViewHost } from "./host";
 import { Input } from "./input";
 import { ModelLayer } from "./model_layer";
 import { Motion } from "./motion";
@@ -43,6 +44,7 @@ export class View implements StudioView, Desk {
   hover: Hover | null = null;
   ink: readonly Ink[] = [];
   snapMark: V | null = null;
+  hidden: Hidden = kNoneHidden;
   private look = kLook;
   private highlight: Highlight = { locked: [] };
   private palette: Palette = kDark;
@@ -135,6 +137,12 @@ export class View implements StudioView, Desk {
   setScene(scene: Scene, fileUrl: (path: string) => string): void {
     this.fileUrl = fileUrl;
     this.draft.receive(scene);
+  }
+
+  setHidden(hidden: Hidden): void {
+    this.hidden = hidden;
+    this.hover = null;
+    this.applyScene();
   }
 
   setSelection(selection: Selection | null): void {
@@ -250,14 +258,14 @@ export class View implements StudioView, Desk {
   }
 
   private applyScene(): void {
-    this.layer.setScene(this.draft.scene, this.look, this.fileUrl);
+    this.layer.setScene(this.draft.scene, this.look, this.hidden, this.fileUrl);
     this.redraw();
   }
 
   private everything(): Box {
     const box = emptyBox();
     join(box, this.model.box);
-    if (this.look.targets) this.layer.addTo(box, this.draft.scene);
+    if (this.look.targets) this.layer.addTo(box, this.draft.scene, this.hidden);
     return box;
   }
 
@@ -279,9 +287,10 @@ export class View implements StudioView, Desk {
     cancelAnimationFrame(this.request);
     this.request = 0;
     this.motion.step(now);
-    const eye = this.eye(), { draft, palette, hover, ink, snapMark, look } = this;
+    const eye = this.eye(), { draft, palette, hover, ink, snapMark, look, hidden } = this;
     const selection = this.tool === "paint" ? null : this.selection; // handles would be in the brush's way
-    this.layer.draw({ eye, scene: draft.scene, palette, selection, hover, targets: look.targets, ink, snap: snapMark });
+    this.layer.draw({ eye, scene: draft.scene, palette, selection, hover, targets: look.targets, hidden, ink,
+      snap: snapMark });
     const scope = this.everything();
     this.cost.calls = this.stage.render(eye, scope);
     const end = performance.now();

@@ -9,10 +9,13 @@ import type { V } from "./vec";
 export const kPickWidth = 12;
 export const kSegments = 32;
 
-/** The curve nearest to a pixel within the pick width. Of two as near, the later one, which is drawn over the other. */
-export function hitCurve(eye: Eye, curves: readonly Curve[], x: number, y: number, width = kPickWidth): number | null {
+/** The curve nearest to a pixel within the pick width. Of two as near, the later one, which is drawn over the other.
+ *  `except`: places of curves that cannot be taken. */
+export function hitCurve(eye: Eye, curves: readonly Curve[], x: number, y: number, except: readonly number[] = [],
+  width = kPickWidth): number | null {
   let best: number | null = null, least = width;
   curves.forEach(({ points }, index) => {
+    if (except.includes(index)) return;
     const path = samples(points, kSegments);
     for (let i = 0; i < kSegments; ++i) {
       const s = clipped(eye, path[i]!, path[i + 1]!);
@@ -37,11 +40,11 @@ export function hitPoint(eye: Eye, points: readonly V[], x: number, y: number, w
 
 /** An end of another curve near a pixel, or (`anywhere`) a place along one: where a bough leaves its trunk. */
 export function snapTo(
-  eye: Eye, curves: readonly Curve[], except: number, x: number, y: number, anywhere = false,
+  eye: Eye, curves: readonly Curve[], except: readonly number[], x: number, y: number, anywhere = false,
   width = kPickWidth): Vec3 | null {
   let best: Vec3 | null = null, least = width;
   curves.forEach(({ points }, index) => {
-    if (index === except) return;
+    if (except.includes(index)) return;
     for (const end of [points[0], points[3]]) {
       const s = project(eye, end), d = s.depth > 0 ? Math.hypot(s.x - x, s.y - y) : Infinity;
       if (d < least) [best, least] = [[...end], d];
@@ -49,7 +52,7 @@ export function snapTo(
   });
   if (best || !anywhere) return best;
   curves.forEach(({ points }, index) => {
-    if (index === except) return;
+    if (except.includes(index)) return;
     for (let i = 0; i <= 96; ++i) {
       const p = point(points, i / 96), s = project(eye, p), d = s.depth > 0 ? Math.hypot(s.x - x, s.y - y) : Infinity;
       if (d < least * 0.6) [best, least] = [p, d / 0.6];

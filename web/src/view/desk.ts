@@ -1,6 +1,6 @@
 // What the tools know of the view: the state that they read and change, and what is under a pixel.
 import type { Draft } from "./draft";
-import type { Selection, Side, Tool, ViewHost } from "./host";
+import type { Hidden, Selection, Side, Tool, ViewHost } from "./host";
 import type { Eye, Orbit } from "./orbit";
 import type { Hover } from "./overlay";
 import type { Ink } from "./stroke_placing";
@@ -36,6 +36,8 @@ export interface Desk {
   readonly tool: Tool;
   /** Whether curves and volumes are shown. */
   readonly targets: boolean;
+  /** Those of them that are not. */
+  readonly hidden: Hidden;
   orbit: Orbit;
   hover: Hover | null;
   ink: readonly Ink[];

@@ -52,7 +52,7 @@ export function pointDrag(desk: Desk, index: number, point: number, from: Pointe
   return {
     move(p) {
       const to = atDepth(eye, p.x, p.y, depth).map((x, i) => x + grip[i]!) as [number, number, number];
-      desk.snapMark = isEnd && !p.shift ? snapTo(eye, curvesOf(desk.draft.scene), index, p.x, p.y, true) : null;
+      desk.snapMark = isEnd && !p.shift ? snapTo(eye, curvesOf(desk.draft.scene), [index, ...desk.hidden.curves], p.x, p.y, true) : null;
       desk.draft.change(setPoints(desk.draft.scene, index, movedPoint(start, point, desk.snapMark ?? to)));
     },
     end(_, clicked) {
@@ -102,7 +102,7 @@ export function strokeDrag(desk: Desk, from: Pointer, click: (p: Pointer) => voi
   const eye = desk.eye();
   const anchorAt = (p: Pointer, anywhere: boolean): Anchor | null => {
     const curves = curvesOf(desk.draft.scene);
-    const snapped = p.shift ? null : snapTo(eye, curves, -1, p.x, p.y, anywhere);
+    const snapped = p.shift ? null : snapTo(eye, curves, desk.hidden.curves, p.x, p.y, anywhere);
     const point = snapped ?? desk.under(p.x, p.y)?.point;
     return point ? { point } : null;
   };
@@ -112,7 +112,7 @@ export function strokeDrag(desk: Desk, from: Pointer, click: (p: Pointer) => voi
     move(p) {
       ink.push(...p.ink);
       desk.ink = ink;
-      desk.snapMark = p.shift ? null : snapTo(eye, curvesOf(desk.draft.scene), -1, p.x, p.y);
+      desk.snapMark = p.shift ? null : snapTo(eye, curvesOf(desk.draft.scene), desk.hidden.curves, p.x, p.y);
     },
     end(p, clicked) {
       desk.ink = [];

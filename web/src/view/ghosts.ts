@@ -99,11 +99,14 @@ export class Ghosts {
   private list: Ghost[] = [];
   private palette: Palette | null = null;
   private selected = -1;
+  private hidden: readonly number[] = [];
 
   /** `changed`: a file has come; `failed`: it cannot be shown, and why. */
   constructor(private readonly changed: () => void, private readonly failed: (message: string) => void) {}
 
-  setScene(scene: Scene, fileUrl: (path: string) => string): void {
+  /** `hidden`: meshes by their places that are neither drawn nor picked. */
+  setScene(scene: Scene, fileUrl: (path: string) => string, hidden: readonly number[] = []): void {
+    this.hidden = hidden;
     const meshes = meshesOf(scene).slice(0, kMostGhosts);
     while (this.list.length > meshes.length) this.drop(this.list.pop()!);
     while (this.list.length < meshes.length) this.list.push(this.make());
@@ -116,7 +119,7 @@ export class Ghosts {
         ghost.surface.geometry = ghost.form.surface;
         ghost.edges.geometry = ghost.form.edges;
       }
-      ghost.surface.visible = ghost.edges.visible = ghost.form !== null;
+      ghost.surface.visible = ghost.edges.visible = ghost.form !== null && !hidden.includes(i);
       const p = placingOf(mesh), [x, y, z] = basisOf(p);
       const matrix = new Matrix4().makeBasis(new Vector3(...x), new Vector3(...y),
         new Vector3(...z)).setPosition(...p.position as [number, number, number]);
@@ -148,7 +151,7 @@ export class Ghosts {
   pick(origin: V, direction: V): { index: number; t: number } | null {
     let best: { index: number; t: number } | null = null;
     this.list.forEach(({ mesh, form }, index) => {
-      const ray = form && rayInto(placingOf(mesh), origin, direction);
+      const ray = form && !this.hidden.includes(index) && rayInto(placingOf(mesh), origin, direction);
       if (!ray || hitBox(ray.origin, ray.direction, form.box.min, form.box.max) === Infinity) return;
       const t = hitChunks(ray.origin, ray.direction, form.triangles, form.chunks);
       if (t < (best?.t ?? Infinity)) best = { index, t };
@@ -158,6 +161,7 @@ export class Ghosts {
 
   addTo(box: Box): void {
     this.list.forEach(({ mesh }, index) => {
+      if (this.hidden.includes(index)) return;
       const { min, max } = this.boxOf(index), p = placingOf(mesh);
       for (let corner = 0; corner < 8; ++corner) {
         grow(box, place(p, [corner & 1 ? max[0] : min[0], corner & 2 ? max[1] : min[1], corner & 4 ? max[2] : min[2]]));

@@ -40,6 +40,21 @@ export interface Highlight {
   locked: number[];
 }
 
+/** Targets that are not shown, by their places in the scene. */
+export interface Hidden {
+  curves: readonly number[];
+  meshes: readonly number[];
+}
+
+export const kNoneHidden: Hidden = { curves: [], meshes: [] };
+
+/** Whether that target is among them. */
+export function isHidden(hidden: Hidden, target: { kind: string; index?: number }): boolean {
+  if (target.index === undefined) return false;
+  return target.kind === "curve" ? hidden.curves.includes(target.index)
+    : target.kind === "mesh" && hidden.meshes.includes(target.index);
+}
+
 export interface StudioView {
   /** Binary messages as they come: docs/studio-protocol.md. */
   setMeshes(message: ArrayBuffer): void;
@@ -47,8 +62,8 @@ export interface StudioView {
   setCloud(message: ArrayBuffer | null): void;
   setRules(names: string[]): void;
   setScene(scene: Scene, fileUrl: (path: string) => string): void;
-  /** Targets by their places in the scene that shall not be drawn, although they count. */
-  setHidden?(hidden: { curves: readonly number[]; meshes: readonly number[] }): void;
+  /** Targets that shall not be drawn, nor taken by the pointer or by Tab, although they count. */
+  setHidden(hidden: Hidden): void;
   setSelection(selection: Selection | null): void;
   setTool(tool: Tool): void;
   setBrush(brush: Brush, radius: number): void;

@@ -3,7 +3,7 @@
 import type { Curve, Vec3 } from "../api";
 import type { Desk } from "./desk";
 import { nudgeStep } from "./drags";
-import type { Selection, Side } from "./host";
+import { isHidden, type Selection, type Side } from "./host";
 import { turned, zoomed } from "./orbit";
 import { placingOf, rotated, type Placing } from "./placing";
 import {
@@ -63,7 +63,7 @@ export class Keys {
     return true;
   }
 
-  /** Everything that can be selected, in order. At either end Tab goes on to the rest of the page. */
+  /** Everything that is shown and can be selected, in order. At either end Tab goes on to the rest of the page. */
   private cycle(step: number): boolean {
     const { desk } = this, scene = desk.draft.scene;
     if (!desk.targets) return false;
@@ -71,7 +71,7 @@ export class Keys {
       ...curvesOf(scene).flatMap((_, index): Selection[] =>
         [{ kind: "curve", index }, ...[0, 1, 2, 3].map((point): Selection => ({ kind: "curve", index, point }))]),
       ...meshesOf(scene).map((_, index): Selection => ({ kind: "mesh", index })),
-    ];
+    ].filter((stop) => !isHidden(desk.hidden, stop));
     const same = (a: Selection, b: Selection | null): boolean => JSON.stringify(a) === JSON.stringify(b);
     const at = stops.findIndex((stop) => same(stop, desk.selection));
     const next = stops[at < 0 ? (step > 0 ? 0 : stops.length - 1) : at + step];

@@ -71,6 +71,7 @@ export class NoView implements StudioView {
   setCloud(): void {}
   setRules(): void {}
   setScene(): void {}
+  setHidden(): void {}
   setSelection(): void {}
   setTool(): void {}
   setBrush(): void {}

@@ -5,7 +5,7 @@ import { samples } from "./bezier";
 import { kSegments } from "./curve_picking";
 import { gizmoHandles, kArrowHead, type GizmoHandle } from "./gizmo";
 import { drawGnomon } from "./gnomon";
-import type { Selection, Side } from "./host";
+import { isHidden, type Hidden, type Selection, type Side } from "./host";
 import { project, type Eye } from "./orbit";
 import type { Palette, Rgb } from "./palette";
 import { placingOf } from "./placing";
@@ -28,6 +28,7 @@ export interface OverlayState {
   selection: Selection | null;
   hover: Hover | null;
   targets: boolean;
+  hidden: Hidden;
   /** A stroke as it is drawn, in pixels. */
   ink: readonly { x: number; y: number }[];
   /** Where a dragged end would snap. */
@@ -35,14 +36,15 @@ export interface OverlayState {
 }
 
 export function drawOverlay(strokes: Strokes, state: OverlayState): void {
-  const { eye, scene, palette, selection, hover } = state;
+  const { eye, scene, palette, hover, hidden } = state;
+  const selection = state.selection && isHidden(hidden, state.selection) ? null : state.selection;
   strokes.clear();
   if (state.targets) {
     drawDensity(strokes, state);
     curvesOf(scene).forEach((curve, index) => {
       const chosen = selection?.kind === "curve" && selection.index === index;
       const over = (hover?.kind === "curve" || hover?.kind === "point") && hover.index === index;
-      if (!chosen) drawCurve(strokes, eye, curve.points, palette, palette.curve, over ? 5 : 3.2);
+      if (!chosen && !hidden.curves.includes(index)) drawCurve(strokes, eye, curve.points, palette, palette.curve, over ? 5 : 3.2);
     });
     if (selection?.kind === "curve") drawChosen(strokes, state, selection.index, selection.point);
     const mesh = selection?.kind === "mesh" ? meshesOf(scene)[selection.index] : undefined;

@@ -1,9 +1,9 @@
 // Targets and everything that is drawn over the model: ghosts, tubes, the field, and the overlay of strokes.
-import type { Scene } from "../api";
+import type { Curve, Scene } from "../api";
 import { samples } from "./bezier";
 import { fieldOf, kFieldFloats, spacing } from "./field";
 import { Ghosts } from "./ghosts";
-import type { Look } from "./host";
+import { isHidden, type Hidden, type Look } from "./host";
 import { drawOverlay, type OverlayState } from "./overlay";
 import type { Palette } from "./palette";
 import { curvesOf } from "./scene_edits";
@@ -13,6 +13,9 @@ import { Strokes } from "./strokes";
 import { Tubes } from "./tubes";
 import { grow, join, type Box } from "./vec";
 
+const shownCurves = (scene: Scene, hidden: Hidden): readonly Curve[] =>
+  curvesOf(scene).filter((_, index) => !isHidden(hidden, { kind: "curve", index }));
+
 export class TargetLayer {
   readonly ghosts: Ghosts;
   private readonly tubes = new Tubes();
@@ -20,6 +23,7 @@ export class TargetLayer {
   private readonly overlay = new StrokeBatch(kOverlay);
   private readonly strokes = new Strokes();
   private curves: unknown = null;
+  private hidden: unknown = null;
   private fieldOf: unknown = null;
 
   constructor(stage: Stage, changed: () => void, failed: (message: string) => void) {
@@ -30,15 +34,16 @@ export class TargetLayer {
     stage.add(this.overlay.mesh, 9);
   }
 
-  setScene(scene: Scene, look: Look, fileUrl: (path: string) => string): void {
+  setScene(scene: Scene, look: Look, hidden: Hidden, fileUrl: (path: string) => string): void {
     const curves = scene.curves?.curve;
-    this.ghosts.setScene(scene, fileUrl);
+    this.ghosts.setScene(scene, fileUrl, hidden.meshes);
     this.ghosts.group.visible = look.targets;
-    if (this.curves !== curves) this.tubes.set(curvesOf(scene));
+    if (this.curves !== curves || this.hidden !== hidden.curves) this.tubes.set(shownCurves(scene, hidden));
     this.curves = curves;
+    this.hidden = hidden.curves;
     if (!look.targets) this.tubes.mesh.visible = false;
     else this.tubes.show();
-    // The field takes milliseconds: it is made only while it is shown.
+    // The field takes milliseconds: it is made only while it is shown. Hidden curves count, so they are in it.
     if (look.field && this.fieldOf !== curves) {
       const field = fieldOf(curvesOf(scene));
       this.field.set(field, field.length / kFieldFloats);
@@ -64,8 +69,8 @@ export class TargetLayer {
     this.overlay.resize(width, height, ratio);
   }
 
-  addTo(box: Box, scene: Scene): void {
-    for (const { points } of curvesOf(scene)) for (const p of samples(points, 12)) grow(box, p);
+  addTo(box: Box, scene: Scene, hidden: Hidden): void {
+    for (const { points } of shownCurves(scene, hidden)) for (const p of samples(points, 12)) grow(box, p);
     if (scene.curves?.density) join(box, scene.curves.density);
     this.ghosts.addTo(box);
   }

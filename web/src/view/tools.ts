@@ -5,6 +5,7 @@ import { cameraDrag, clickOnly, curveDrag, gizmoDrag, pointDrag, shapeDrag, stro
   type HeightStep } from "./drags";
 import { gizmoHandles, hitGizmo } from "./gizmo";
 import { hitGnomon } from "./gnomon";
+import { isHidden } from "./host";
 import { depthOf } from "./orbit";
 import type { Hover } from "./overlay";
 import { placingOf } from "./placing";
@@ -24,7 +25,8 @@ export class Tools {
     const { desk } = this, eye = desk.eye(), side = hitGnomon(eye, x, y);
     if (side) return { kind: "side", side };
     if (!desk.targets) return null;
-    const { selection } = desk, scene = desk.draft.scene;
+    const { hidden } = desk, scene = desk.draft.scene;
+    const selection = desk.selection && isHidden(hidden, desk.selection) ? null : desk.selection;
     if (selection?.kind === "mesh" && meshesOf(scene)[selection.index]) {
       const handle = hitGizmo(gizmoHandles(eye, placingOf(meshesOf(scene)[selection.index]!)), x, y);
       if (handle) return { kind: "gizmo", handle };
@@ -33,7 +35,7 @@ export class Tools {
       const point = hitPoint(eye, curvesOf(scene)[selection.index]!.points, x, y);
       if (point !== null) return { kind: "point", index: selection.index, point };
     }
-    const index = hitCurve(eye, curvesOf(scene), x, y);
+    const index = hitCurve(eye, curvesOf(scene), x, y, hidden.curves);
     return index === null ? null : { kind: "curve", index };
   }
 

@@ -2,7 +2,7 @@
 import type { Curve, Scene } from "../../src/api";
 import type { Desk, Pointer, Under } from "../../src/view/desk";
 import { Draft } from "../../src/view/draft";
-import type { Selection, Side, Tool, ViewHost } from "../../src/view/host";
+import { kNoneHidden, type Hidden, type Selection, type Side, type Tool, type ViewHost } from "../../src/view/host";
 import { eyeOf, type Orbit } from "../../src/view/orbit";
 import type { Hover } from "../../src/view/overlay";
 import type { Ink } from "../../src/view/stroke_placing";
@@ -20,6 +20,7 @@ export class FakeDesk implements Desk {
   selection: Selection | null = null;
   tool: Tool = "select";
   targets = true;
+  hidden: Hidden = kNoneHidden;
   orbit: Orbit = { target: [0, 1, 0], distance: 8, azimuth: 0, elevation: 0.4 };
   hover: Hover | null = null;
   ink: readonly Ink[] = [];

@@ -36,6 +36,24 @@ describe("Ghosts", () => {
     expect(box).toEqual({ min: [0, -1, -1], max: [2, 1, 1] });
   });
 
+  it("neither draws nor picks what is hidden, until it is shown again", () => {
+    answers({});
+    const ghosts = new Ghosts(() => {}, () => {}), two = scene("shapes/box.obj", "shapes/sphere.obj");
+    const drawn = (): number => ghosts.group.children.filter((child) => child.visible).length;
+    ghosts.setScene(two, url, [0]);
+    expect(drawn()).toBe(2); // a surface and its edges
+    expect(ghosts.pick([1, 0, 10], [0, 0, -1])).toMatchObject({ index: 1 });
+    ghosts.setScene(two, url, [0, 1]);
+    expect(drawn()).toBe(0);
+    expect(ghosts.pick([1, 0, 10], [0, 0, -1])).toBeNull();
+    const box = emptyBox();
+    ghosts.addTo(box);
+    expect(box).toEqual(emptyBox());
+    ghosts.setScene(two, url);
+    expect(drawn()).toBe(4);
+    expect(ghosts.pick([1.9, 0.9, 10], [0, 0, -1])).toMatchObject({ index: 0 });
+  });
+
   it("fetches a file once, and shows it when it is there", async () => {
     const asked = answers({ "/files/a.obj?v=1": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" });
     let changed = 0;

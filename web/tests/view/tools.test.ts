@@ -56,6 +56,31 @@ describe("select", () => {
     expect(desk.edits[1]!.scene.curves!.blend).toBe(true);
   });
 
+  it("leaves what is hidden alone: curves, points, handles and places to snap to", () => {
+    const desk = new FakeDesk(scene), tools = new Tools(desk), keys = new Keys(desk, () => 0);
+    const on = at(desk, point(trunk.points, 0.4)), end = at(desk, trunk.points[3]), box: V = [-2, 1, 0];
+    const handle = gizmoHandles(desk.eye(), placingOf(meshesOf(scene)[0]!)).find((h) => h.kind === "move")!;
+    expect(tools.hoverAt(...on)).toEqual({ kind: "curve", index: 0 });
+    desk.selection = { kind: "mesh", index: 0 };
+    const grip = handle.path[handle.path.length - 1]!;
+    expect(tools.hoverAt(grip[0], grip[1])).toMatchObject({ kind: "gizmo" });
+    desk.hidden = { curves: [0], meshes: [0] };
+    expect(tools.hoverAt(grip[0], grip[1])).toBeNull();
+    expect(tools.hoverAt(...at(desk, box))).toBeNull();
+    expect(tools.hoverAt(...on)).toBeNull();
+    desk.selection = { kind: "curve", index: 0 };
+    expect(tools.hoverAt(...end)).toBeNull();
+    desk.selection = { kind: "curve", index: 1 };
+    const held = tools.press(pointer(...at(desk, bough.points[0])))!, [x, y] = at(desk, trunk.points[0]);
+    held.move(pointer(x + 5, y - 5));
+    expect(desk.snapMark).toBeNull();
+    held.end(pointer(x + 5, y - 5), false);
+    expect(curvesOf(desk.draft.scene)[1]!.points[0]).not.toEqual(trunk.points[0]);
+    desk.selection = null;
+    expect(keys.press({ key: "Tab", shift: false, ctrl: false, alt: false })).toBe(true);
+    expect(desk.selection).toEqual({ kind: "curve", index: 1 });
+  });
+
   it("snaps an end to another curve's end, unless shift is held, and takes its handle along", () => {
     const desk = new FakeDesk(scene), tools = new Tools(desk), goal = at(desk, bough.points[0]);
     desk.selection = { kind: "curve", index: 0 };
