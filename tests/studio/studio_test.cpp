@@ -219,8 +219,8 @@ TEST_F(StudioTest, ASearchThatAnEditBeginsTakesTheTimeOfTheScene) {
 TEST_F(StudioTest, AttributesSayTheirLabelsAndSteps) {
   Page page = this->page();
   page.ask("create_project", {{"name", "a"}});
-  page.ask("edit", page.edit("grammar a 1\n\n# How many there are.\nattr n = 3 in 1..9 by 2 \"Tree/Forks\"\n"
-                             "attr bend = 30deg in 0deg..90deg by 5deg\nstart A\nrule A { for i in 1..n { emit box rotate x bend } }\n"));
+  page.ask("edit", page.edit("grammar a 1\n\n# How many there are.\nattr n in 1..9 by 2 = 3 \"Tree/Forks\"\n"
+                             "attr bend in 0deg..90deg by 5deg = 30deg\nstart A\nrule A { turn x bend  move y n  emit box }\n"));
   const std::int64_t revision = page.seen["document"]["revision"];
   ASSERT_TRUE(page.wait_for("checked", [&](const json& checked) { return checked["revision"] == revision; }));
   ASSERT_EQ(page.seen["checked"]["attributes"].size(), 2u) << page.seen["checked"];
@@ -243,7 +243,7 @@ TEST_F(StudioTest, FilesAreCalledAsTheProjectCallsThem) {
   ASSERT_TRUE(page.wait_for("log"));
   EXPECT_THAT(page.seen["log"]["text"], HasSubstr("grammar.esp:4"));
   EXPECT_THAT(page.seen["log"]["text"], testing::Not(HasSubstr("/")));
-  page.ask("edit", page.edit("grammar a 1\nmesh m = mesh(\"none.obj\")\nstart A\nrule A { emit m }\n"));
+  page.ask("edit", page.edit("grammar a 1\nmesh m = \"none.obj\"\nstart A\nrule A { emit m }\n"));
   const auto faulty = [](const json& checked) { return checked.contains("scene_problem"); };
   ASSERT_TRUE(page.wait_for("checked", faulty));
   EXPECT_THAT(page.seen["checked"]["scene_problem"], HasSubstr("none.obj"));
