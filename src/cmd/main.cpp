@@ -34,6 +34,7 @@ constexpr const char* kExamples = R"(Examples:
   espalier similarity out/ship out/ship/alternatives/01.glb --pairs 1000
   espalier graph grammars/spaceship.esp -o spaceship.svg
   espalier explain grammars/spaceship.esp
+  espalier studio
 
 Exit codes: 0 done, 1 a comparison failed or there is no result, 2 bad input.)";
 
@@ -55,6 +56,7 @@ struct CommandLine {
   SimilarityOptions similarity;
   GraphOptions graph;
   ExplainOptions explain;
+  StudioOptions studio;
   std::function<int()> verb;
 };
 
@@ -239,6 +241,18 @@ void declare_explain(CLI::App& app, CommandLine& line) {
   verb->callback([&line] { line.verb = [&line] { return explain_verb(line.explain); }; });
 }
 
+void declare_studio(CLI::App& app, CommandLine& line) {
+  CLI::App* verb = app.add_subcommand("studio", "Serve the editor: a page where you draw and the model follows");
+  StudioOptions& o = line.studio;
+  verb->add_option("project", o.project, "Name of a project, made if there is none; or a project file (.espalier)");
+  verb->add_option("--port", o.port, "Of 127.0.0.1; 0: any that is free (7411)");
+  verb->add_flag("!--no-open", o.open, "Print the link, open no browser");
+  verb->add_flag("--new-token", o.new_token, "Make a new link: those of earlier starts are not served any more");
+  verb->add_option("--data", o.data, "SQLite file that projects are kept in (~/.local/share/espalier/studio.sqlite)");
+  verb->add_option("--page", o.page, "Folder of the page (studio-page beside the program)");
+  verb->callback([&line] { line.verb = [&line] { return studio_verb(line.studio); }; });
+}
+
 int main_verb(int argc, char** argv) {
   CLI::App app("Espalier: grammars that grow towards what you want.", "espalier");
   app.set_version_flag("--version", fmt::format("espalier {}", kVersion));
@@ -259,6 +273,7 @@ int main_verb(int argc, char** argv) {
   declare_similarity(app, line.similarity, line.verb);
   declare_graph(app, line);
   declare_explain(app, line);
+  declare_studio(app, line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

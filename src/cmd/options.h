@@ -150,6 +150,15 @@ struct GraphOptions {
   std::string out;                      // .svg; empty: standard output
 };
 
+struct StudioOptions {
+  std::string project;  // name, or a project file; empty: the list of projects
+  std::uint16_t port = 7411;
+  bool open = true;     // in the desktop's browser
+  bool new_token = false;  // links of earlier starts lead nowhere from now on
+  std::string data;     // where projects are kept; empty: below the home folder
+  std::string page;     // folder; empty: beside the program
+};
+
 struct ExplainOptions {
   std::string grammar;
   std::vector<std::string> attributes;

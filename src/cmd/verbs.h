@@ -26,5 +26,6 @@ int render_verb(const RenderOptions& options);
 int similarity_verb(const SimilarityOptions& options);
 int graph_verb(const GraphOptions& options);
 int explain_verb(const ExplainOptions& options);
+int studio_verb(const StudioOptions& options);
 
 }  // namespace espalier

@@ -146,9 +146,17 @@ Bounds box_around(const CurveSettings& settings) {
   return {box.min - margin, box.max + margin};
 }
 
-void build_objective(Setup& setup, const Scene& from) {
+/// Both grow the same probes.
+bool probes_alike(const Setup& a, const Setup& b) {
+  return a.grammar.graph == b.grammar.graph && a.scene.seed == b.scene.seed &&
+         a.scene.search.ga.genes == b.scene.search.ga.genes && a.full() == b.full();
+}
+
+void build_objective(Setup& setup, const Scene& from, const Setup* like) {
   if (setup.targets.empty() && from.silhouettes.empty()) {
     setup.stage = box_around(from.curves.settings);
+  } else if (setup.targets.empty() && like && probes_alike(setup, *like)) {
+    setup.stage = like->stage;
   } else if (setup.targets.empty()) {
     setup.probes = grow_probes(setup.graph(), setup.scene, setup.full());
     setup.stage = box_of(*setup.probes);
@@ -190,9 +198,13 @@ Mesh place_mesh(Mesh mesh, const SceneMesh& placing) {
 }
 
 std::unique_ptr<Setup> set_up(const Scene& scene, MeshSource& source) {
+  return set_up(scene, load_grammar(resolve(scene, scene.grammar), scene.attributes), source);
+}
+
+std::unique_ptr<Setup> set_up(const Scene& scene, LoadedGrammar grammar, MeshSource& source, const Setup* like) {
   auto setup = std::make_unique<Setup>();
   setup->scene = scene;
-  setup->grammar = load_grammar(resolve(scene, scene.grammar), scene.attributes);
+  setup->grammar = std::move(grammar);
   if (!setup->grammar.warnings.empty()) setup->warnings.push_back(setup->grammar.warnings);
   setup->meshes = load_meshes(setup->grammar, source);
   setup->textures = load_textures(setup->grammar);
@@ -204,7 +216,7 @@ std::unique_ptr<Setup> set_up(const Scene& scene, MeshSource& source) {
     setup->scene.volume.meshes[i].file = setup->inputs.add_target(path);
     setup->targets.push_back(place_mesh(source.load(path), mesh));
   }
-  build_objective(*setup, scene);
+  build_objective(*setup, scene, like);
   take_founders(*setup, scene);
   return setup;
 }

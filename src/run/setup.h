@@ -40,6 +40,10 @@ struct Setup {
 
 /// Throws Error. `source` reads the mesh files.
 std::unique_ptr<Setup> set_up(const Scene& scene, MeshSource& source);
+/// The same where the scene's grammar, with its attributes set, has been loaded already. `like`: an earlier setup whose
+/// stage came from probes; they are not grown again where they would be the same.
+std::unique_ptr<Setup> set_up(const Scene& scene, LoadedGrammar grammar, MeshSource& source,
+                              const Setup* like = nullptr);
 
 /// The mesh in model space: translate * rotate z * rotate y * rotate x * scale; same bits on every machine.
 Mesh place_mesh(Mesh mesh, const SceneMesh& placing);

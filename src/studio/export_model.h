@@ -1,0 +1,19 @@
+#pragma once
+// A shown model as a file, and as a folder that `espalier run` runs.
+
+#include <string>
+
+#include "io/provenance.h"
+#include "studio/live_search.h"
+#include "studio/web_server.h"
+
+namespace espalier::studio {
+
+/// `format`: glb, ply, stl, png; obj: a zip with materials and textures; zip: the scene folder. `name`: of the project,
+/// for the file's name. Throws Error.
+HttpResponse export_model(const ShownModel& shown, const std::string& format, const std::string& name);
+
+/// Where the model came from, for files that lie beside scene.toml.
+Provenance provenance_of(const ShownModel& shown);
+
+}  // namespace espalier::studio

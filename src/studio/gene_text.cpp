@@ -1,0 +1,109 @@
+#include "studio/gene_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "derivation/locks.h"
+#include "derivation/position.h"
+#include "grammar/outline.h"
+#include "model/draw_values.h"
+#include "studio/grammar_check.h"
+
+namespace espalier::studio {
+namespace {
+
+/// As the language writes it: three digits and the unit.
+std::string value_text(const DrawOutline* draw, std::optional<float> value, std::uint32_t quantile) {
+  if (!value) return fmt::format("u {:.3g}", quantile * 0x1p-32);
+  const double number = *value + 0.0;
+  if (!draw) return fmt::format("{:.3g}", number);
+  if (draw->distribution == "chance") return number == 0 ? "true" : "false";
+  if (draw->distribution == "pick") {
+    const auto index = static_cast<std::size_t>(number);
+    return index < draw->alternatives.size() ? draw->alternatives[index] : fmt::format("#{}", index + 1);
+  }
+  if (draw->kind == Kind::angle) return fmt::format("{:.3g}deg", number * (180 / kPi));
+  return fmt::format("{:.3g}", number);
+}
+
+GenePosition position_of(const ShownModel& shown, std::int64_t gene) {
+  if (gene < 0 || gene >= static_cast<std::int64_t>(shown.derivation.size())) {
+    throw Error(fmt::format("model {} has no gene {}", shown.number, gene));
+  }
+  GenePath path;
+  locate(shown.setup->graph(), shown.derivation, static_cast<std::uint32_t>(gene), path);
+  return path.gene;
+}
+
+bool is_below(const std::string& path, const std::string& lock) {
+  return path == lock || (path.starts_with(lock) && path[lock.size()] == '/');
+}
+
+}  // namespace
+
+std::string path_of(const ShownModel& shown, std::int64_t gene) {
+  const GenePosition at = position_of(shown, gene);
+  const GeneratorGraph& graph = shown.setup->graph();
+  return format_gene_path(graph, gene_path(graph, shown.derivation, at.gene));
+}
+
+api::Gene gene_text(const ShownModel& shown, std::int64_t gene) {
+  const GenePosition at = position_of(shown, gene);
+  const GeneratorGraph& graph = shown.setup->graph();
+  const LoadedGrammar& grammar = shown.setup->grammar;
+  const GeneRecord& record = shown.derivation.genes[at.gene];
+  const Rule& rule = rule_of(graph, record);
+  const Variant& variant = variant_of(graph, record);
+  api::Gene text;
+  text.model = shown.number;
+  text.gene = gene;
+  text.rule = rule.name;
+  text.path = path_of(shown, gene);
+  text.below = record.genes_below;
+  text.locked = std::any_of(shown.locks.begin(), shown.locks.end(),
+                            [&](const std::string& lock) { return is_below(text.path, lock); });
+  if (rule.span.file == 0 && rule.span.line > 0) text.at = Utf16Offsets(grammar.sources[0].text).place(rule.span);
+
+  const GrammarOutline outline = outline_of(*grammar.checked, grammar.sources);
+  Derivation ends = shown.derivation;
+  const std::vector<std::optional<float>> values = draw_values(graph, ends);
+  const auto values_at = [&](std::uint32_t quantile) {
+    std::fill_n(ends.draws.begin() + at.draw, variant.draws.size(), quantile);
+    return draw_values(graph, ends);
+  };
+  const std::vector<std::optional<float>> low = values_at(0), high = values_at(0xffffffff);
+  for (std::size_t k = 0; k < variant.draws.size(); ++k) {
+    const DrawComponent& component = rule.draws[variant.draws[k]];
+    const DrawOutline* const draw = outline.find_draw(rule.name, component.name);
+    const std::size_t i = at.draw + k;
+    const std::uint32_t quantile = shown.derivation.draws[i];
+    api::Draw row;
+    row.name = component.name.substr(component.name.find('.') + 1);
+    row.index = static_cast<std::int64_t>(k);
+    row.quantile = quantile * 0x1p-32;
+    row.value = value_text(draw, values[i], quantile);
+    if (low[i]) row.low = value_text(draw, low[i], 0);
+    if (high[i]) row.high = value_text(draw, high[i], 0xffffffff);
+    text.draws.push_back(std::move(row));
+  }
+  return text;
+}
+
+Derivation with_draw(const ShownModel& shown, std::int64_t gene, std::int64_t index, double quantile) {
+  const GenePosition at = position_of(shown, gene);
+  const Variant& variant = variant_of(shown.setup->graph(), shown.derivation.genes[at.gene]);
+  if (index < 0 || index >= static_cast<std::int64_t>(variant.draws.size())) {
+    throw Error(fmt::format("gene {} has no draw {}", gene, index));
+  }
+  Derivation changed = shown.derivation;
+  const double scaled = std::floor(quantile * 0x1p32);
+  changed.draws[at.draw + static_cast<std::size_t>(index)] =
+      scaled >= 0x1p32 ? 0xffffffffu : static_cast<std::uint32_t>(scaled);
+  return changed;
+}
+
+}  // namespace espalier::studio

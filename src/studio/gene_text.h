@@ -1,0 +1,17 @@
+#pragma once
+// One gene of a shown model, as the page asks for it.
+
+#include <studio_types.h>
+
+#include "studio/live_search.h"
+
+namespace espalier::studio {
+
+/// Throws Error where the model has no such gene.
+api::Gene gene_text(const ShownModel& shown, std::int64_t gene);
+/// The model with one draw of a gene set to a quantile in 0..1. Throws Error where there is no such draw.
+Derivation with_draw(const ShownModel& shown, std::int64_t gene, std::int64_t index, double quantile);
+/// "Trunk/Branch[2]". Throws Error.
+std::string path_of(const ShownModel& shown, std::int64_t gene);
+
+}  // namespace espalier::studio

@@ -1,0 +1,154 @@
+#include "studio/model_message.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "derivation/sweep.h"
+#include "model/parts.h"
+#include "model/primitives.h"
+
+namespace espalier::studio {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+class Writer {
+ public:
+  explicit Writer(const char* letters, std::size_t bytes) {
+    out_.reserve(bytes + 12);
+    out_.append(letters, 4);
+    add(std::uint32_t{1});
+  }
+  template <class T>
+  void add(T value) {
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    out_.append(bytes, sizeof(T));
+  }
+  void add(const Vec3& v) { add(v.x), add(v.y), add(v.z); }
+  void add(std::string_view text) { out_ += text; }
+  void pad() { out_.append((4 - out_.size() % 4) % 4, '\0'); }
+  std::string take() { return std::move(out_); }
+
+ private:
+  std::string out_;
+};
+
+Mesh box_of(const Bounds& bounds) {
+  Mesh box = make_primitive(MeshKind::box, 1, 0);
+  for (Vec3& p : box.positions) p = bounds.centre() + p * bounds.size();
+  return box;
+}
+
+/// A texture is not sent: its colours' mean stands for it.
+Vec3 seen_color(const Material& material) {
+  const bool made = material.textured() && material.texture.kind != TextureKind::image;
+  return made ? material.color * (0.5f * (material.texture.colors[0] + material.texture.colors[1])) : material.color;
+}
+
+void add_material(Writer& out, const Material& material) {
+  const Vec3 color = seen_color(material);
+  out.add(color);
+  out.add(material.opacity);
+  out.add(color);
+  out.add(material.glow);
+  out.add(material.roughness);
+  out.add(material.metal);
+  out.add(0.0f), out.add(0.0f);
+}
+
+void add_genes(Writer& out, const GeneratorGraph& graph, const Derivation& derivation) {
+  GeneSweep sweep;
+  sweep.begin(graph, derivation);
+  while (sweep.next()) {
+    out.add(std::uint32_t{graph.edges[sweep.gene().edge].child});
+    out.add(sweep.parent() == GeneSweep::kNoParent ? std::int32_t{-1} : static_cast<std::int32_t>(sweep.parent()));
+  }
+}
+
+}  // namespace
+
+std::string mesh_message(std::uint32_t table, const MeshTable& meshes) {
+  Writer out("ESPG", 1 << 16);
+  out.add(table);
+  out.add(static_cast<std::uint32_t>(meshes.size()));
+  std::size_t triangles = 0;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    triangles += meshes.mesh(i).triangles.size();
+    const Mesh mesh = with_normals(triangles > kMostSentTriangles ? box_of(meshes.mesh_bounds(i)) : meshes.mesh(i));
+    out.add(static_cast<std::uint32_t>(mesh.positions.size()));
+    out.add(static_cast<std::uint32_t>(mesh.triangles.size()));
+    out.add(std::uint32_t{meshes.ref(i).kind == MeshKind::cone});
+    for (const Vec3& p : mesh.positions) out.add(p);
+    for (const Vec3& n : mesh.normals) out.add(n);
+    for (const Triangle& t : mesh.triangles) out.add(t[0]), out.add(t[1]), out.add(t[2]);
+  }
+  return out.take();
+}
+
+SentModel model_message(std::uint32_t number, std::uint32_t table, const GeneratorGraph& graph,
+                        const Derivation& derivation, const Model& model) {
+  SentModel sent;
+  std::vector<const Instance*> shown;
+  for (const Instance& instance : model.instances) {
+    if (!can_be_shown(instance.model_from_mesh)) continue;
+    if (shown.size() == kMostSentParts) {
+      sent.truncated = true;
+      break;
+    }
+    shown.push_back(&instance);
+  }
+  sent.parts = shown.size();
+  std::uint32_t bones = 0;
+  const auto finite = [](const Vec3& p) { return can_be_shown({Mat3(1.0f), p}); };
+  const std::size_t most_bones = std::min(model.bones.size(), kMostSentParts);
+  const std::size_t materials = graph.materials.size() + model.materials.size();
+  Writer out("ESPM", 32 + 64 * shown.size() + 32 * most_bones + 48 * materials + 8 * derivation.size());
+  out.add(number);
+  out.add(static_cast<std::uint32_t>(shown.size()));
+  bones = static_cast<std::uint32_t>(most_bones);
+  out.add(bones);
+  out.add(static_cast<std::uint32_t>(materials));
+  out.add(static_cast<std::uint32_t>(derivation.size()));
+  out.add(table);
+  for (const Instance* instance : shown) {
+    const Frame& frame = instance->model_from_mesh;
+    for (int c = 0; c < 3; ++c) out.add(frame.basis[c]);
+    out.add(frame.origin);
+    out.add(instance->top);
+    out.add(instance->gene);
+    out.add(instance->mesh);
+    out.add(instance->material);
+    out.add(static_cast<std::uint32_t>(instance->layer));
+  }
+  for (std::size_t i = 0; i < most_bones; ++i) {
+    // Bones that lead nowhere stay in their places, since others name them as their parents.
+    const Bone& bone = model.bones[i];
+    const bool good = finite(bone.from) && finite(bone.to);
+    out.add(good ? bone.from : Vec3(0));
+    out.add(good ? bone.to : Vec3(0));
+    out.add(bone.gene);
+    out.add(bone.parent);
+  }
+  for (const Material& material : graph.materials) add_material(out, material);
+  for (const MadeMaterial& made : model.materials) add_material(out, graph.recipes[made.recipe].material(made.steps));
+  add_genes(out, graph, derivation);
+  sent.bytes = out.take();
+  return sent;
+}
+
+std::string cloud_message(std::string_view rule, const std::vector<CloudPoint>& points) {
+  Writer out("ESPC", rule.size() + 16 * points.size() + 16);
+  out.add(static_cast<std::uint32_t>(rule.size()));
+  out.add(static_cast<std::uint32_t>(points.size()));
+  out.add(rule);
+  out.pad();
+  for (const CloudPoint& point : points) {
+    out.add(point.at);
+    out.add(point.kind);
+  }
+  return out.take();
+}
+
+}  // namespace espalier::studio

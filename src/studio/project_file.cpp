@@ -1,0 +1,137 @@
+#include "studio/project_file.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "studio/web_guard.h"
+
+namespace espalier::studio {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+constexpr std::size_t kMostGrammarBytes = 1'000'000, kMostSceneBytes = 1'000'000, kMostModelBytes = 16u << 20;
+constexpr int kMostDepth = 80;
+
+std::string text_of(const Json& json, const char* key, std::size_t most) {
+  const auto it = json.find(key);
+  if (it == json.end() || !it->is_string()) throw Error(fmt::format("the project file must have {}, a text", key));
+  std::string text = it->get<std::string>();
+  if (text.size() > most) throw Error(fmt::format("the project file's {} must have at most {} bytes", key, most));
+  return text;
+}
+
+const Json& list_of(const Json& json, const char* key, std::size_t most) {
+  const auto it = json.find(key);
+  if (it == json.end() || !it->is_array()) throw Error(fmt::format("the project file must have {}, a list", key));
+  if (it->size() > most) throw Error(fmt::format("the project file's {} must be at most {}", key, most));
+  return *it;
+}
+
+void read_files(const Json& list, NewProject& content) {
+  for (const Json& item : list) {
+    if (!item.is_object()) throw Error("the project file's files must be objects");
+    const std::string path = text_of(item, "path", 200);
+    if (!is_plain_path(path)) throw Error(fmt::format("the project file names a file \"{}\", which leads elsewhere", path));
+    const std::string bytes = decode_base64(text_of(item, "bytes", kMostProjectFileBytes));
+    StoredFile file = describe_file(path, bytes);
+    content.blobs[file.hash] = bytes;
+    content.state.files.push_back(std::move(file));
+  }
+  std::vector<StoredFile>& files = content.state.files;
+  std::sort(files.begin(), files.end(), [](const StoredFile& a, const StoredFile& b) { return a.path < b.path; });
+  const auto twice = std::adjacent_find(files.begin(), files.end(),
+                                        [](const StoredFile& a, const StoredFile& b) { return a.path == b.path; });
+  if (twice != files.end()) throw Error(fmt::format("the project file has {} twice", twice->path));
+}
+
+}  // namespace
+
+std::string encode_base64(std::string_view bytes) {
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? kLetters[word >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+std::string decode_base64(std::string_view text) {
+  std::array<int, 256> value;
+  value.fill(-1);
+  for (std::size_t i = 0; i < kLetters.size(); ++i) value[static_cast<unsigned char>(kLetters[i])] = static_cast<int>(i);
+  if (text.size() % 4 != 0) throw Error("a file in base64 is cut short");
+  std::size_t padding = 0;
+  while (padding < 2 && padding < text.size() && text[text.size() - 1 - padding] == '=') ++padding;
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3);
+  for (std::size_t i = 0; i < text.size(); i += 4) {
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const bool padded = i + k >= text.size() - padding;
+      const int six = padded ? 0 : value[static_cast<unsigned char>(text[i + k])];
+      if (six < 0) throw Error("a file is not in base64");
+      word = word << 6 | static_cast<std::uint32_t>(six);
+    }
+    for (int k = 2; k >= 0; --k) bytes += static_cast<char>(word >> (8 * k) & 0xff);
+  }
+  bytes.resize(bytes.size() - padding);
+  return bytes;
+}
+
+std::string project_file(const WholeProject& project) {
+  Json json = {{"espalier_project", kProjectFileVersion}, {"name", project.name},
+               {"grammar", project.content.state.grammar}, {"scene", Json::parse(project.content.state.scene)},
+               {"shown", project.shown}};
+  json["files"] = Json::array();
+  for (const StoredFile& file : project.content.state.files) {
+    json["files"].push_back({{"path", file.path}, {"bytes", encode_base64(project.content.blobs.at(file.hash))}});
+  }
+  json["favourites"] = Json::array();
+  for (const StoredFavourite& one : project.favourites) {
+    json["favourites"].push_back({{"score", one.score}, {"genes", one.genes}, {"words", one.words},
+                                  {"derivation", one.derivation}});
+  }
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+WholeProject parse_project_file(std::string_view text) {
+  if (text.size() > kMostProjectFileBytes) throw Error(fmt::format("a project file has at most {} bytes", kMostProjectFileBytes));
+  const auto bounded = [](int depth, Json::parse_event_t, Json&) {
+    if (depth > kMostDepth) throw Error("the project file is nested too deep");
+    return true;
+  };
+  const Json json = Json::parse(text, bounded, false);
+  if (!json.is_object() || !json.contains("espalier_project")) throw Error("this is no project file");
+  if (json["espalier_project"] != kProjectFileVersion) {
+    throw Error(fmt::format("the project file must be of version {}, got {}", kProjectFileVersion,
+                            json["espalier_project"].dump().substr(0, 40)));
+  }
+  WholeProject project;
+  project.name = text_of(json, "name", 200);
+  project.content.state.grammar = text_of(json, "grammar", kMostGrammarBytes);
+  if (!json.contains("scene") || !json["scene"].is_object()) throw Error("the project file must have scene, an object");
+  project.content.state.scene = json["scene"].dump();
+  if (project.content.state.scene.size() > kMostSceneBytes) throw Error("the project file's scene is too large");
+  project.shown = text_of(json, "shown", kMostModelBytes);
+  read_files(list_of(json, "files", Store::kMostFiles), project.content);
+  for (const Json& item : list_of(json, "favourites", Store::kMostFavourites)) {
+    if (!item.is_object() || !item.contains("score") || !item["score"].is_number() || !item.contains("genes") ||
+        !item["genes"].is_number_unsigned()) {
+      throw Error("the project file's favourites must have score and genes, numbers");
+    }
+    project.favourites.push_back({0, item["score"], item["genes"].get<std::int64_t>(), text_of(item, "words", 10'000),
+                                  text_of(item, "derivation", kMostModelBytes)});
+  }
+  return project;
+}
+
+}  // namespace espalier::studio

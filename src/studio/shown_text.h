@@ -1,0 +1,15 @@
+#pragma once
+// What is said of a model that is shown.
+
+#include <studio_types.h>
+
+#include "model/model.h"
+#include "score/target.h"
+#include "studio/live_search.h"
+#include "studio/model_message.h"
+
+namespace espalier::studio {
+
+api::Shown shown_text(const ShownModel& shown, const Explanation& explanation, const Model& model, const SentModel& sent);
+
+}  // namespace espalier::studio

@@ -1,0 +1,67 @@
+// What goes over plain HTTP: files to and from a project (docs/studio-protocol.md).
+
+export type ExportFormat = "glb" | "obj" | "ply" | "stl" | "png" | "zip" | "espalier";
+
+export class Files {
+  constructor(
+    private readonly base: string,
+    private readonly token: string,
+  ) {}
+
+  /** Address of a file of a project; shapes of the studio's own too. */
+  url(project: number, path: string): string {
+    return this.address(`projects/${project}/files/${path.split("/").map(encodeURIComponent).join("/")}`);
+  }
+
+  exportUrl(project: number, format: ExportFormat): string {
+    return this.address(`projects/${project}/export/${format}`);
+  }
+
+  /** Throws an Error with the server's own words. */
+  async upload(project: number, name: string, content: Blob): Promise<void> {
+    await this.post(`projects/${project}/files/${encodeURIComponent(name)}`, content);
+  }
+
+  /** Number of the new project. */
+  async importProject(content: Blob): Promise<number> {
+    const text = await this.post("projects/import", content);
+    const number = /\d+/.exec(text);
+    if (number === null) throw new Error("The server did not say which project it made.");
+    return Number(number[0]);
+  }
+
+  private address(path: string): string {
+    return `${new URL(path, this.base).pathname}?${new URLSearchParams({ token: this.token })}`;
+  }
+
+  private async post(path: string, body: Blob): Promise<string> {
+    let response: Response;
+    try {
+      response = await fetch(new URL(path, this.base).pathname, {
+        method: "POST",
+        body,
+        headers: { "X-Espalier-Token": this.token },
+      });
+    } catch {
+      throw new Error("The server cannot be reached.");
+    }
+    const text = await response.text();
+    if (!response.ok) throw new Error(text.trim() || `The server answered ${response.status}.`);
+    return text;
+  }
+}
+
+/** A name for a file that the project does not have yet, of plain letters: `my tree.obj` -> `my-tree.obj`, `my-tree-2.obj`. */
+export function freeName(name: string, taken: readonly string[]): string {
+  const end = /\.[A-Za-z0-9]{1,9}$/.exec(name)?.[0].toLowerCase() ?? "";
+  const stem = name
+    .slice(0, name.length - end.length)
+    .replace(/[^A-Za-z0-9_-]+/g, "-")
+    .replace(/^-+|-+$/g, "")
+    .slice(0, 60);
+  const first = stem || "file";
+  for (let n = 1; ; ++n) {
+    const candidate = n === 1 ? first + end : `${first}-${n}${end}`;
+    if (!taken.includes(candidate)) return candidate;
+  }
+}

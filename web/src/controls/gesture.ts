@@ -1,0 +1,14 @@
+import { useRef } from "preact/hooks";
+
+let count = 0;
+
+/** Names of gestures: one from pointer-down to pointer-up, and one for keys until the focus goes. */
+export function useGesture(name: string): { current(): string; next(): void } {
+  const gesture = useRef("");
+  return {
+    current: () => (gesture.current ||= `${name} ${++count}`),
+    next: () => {
+      gesture.current = "";
+    },
+  };
+}

@@ -1,0 +1,146 @@
+import { useId, useRef, useState } from "preact/hooks";
+import { useGesture } from "./gesture";
+import { clampTo, readNumber, showNumber, stepFor, tidy } from "./number";
+
+export interface NumberBoxProps {
+  label: string;
+  value: number;
+  min?: number | undefined;
+  max?: number | undefined;
+  step?: number | undefined;
+  whole?: boolean | undefined;
+  /** What is shown is the default. */
+  standard?: boolean | undefined;
+  id?: string | undefined;
+  disabled?: boolean | undefined;
+  onChange(value: number, gesture: string): void;
+}
+
+/** A number that is typed, stepped with the arrow keys (Shift: ten steps, Alt: a tenth), or scrubbed by dragging sideways. */
+export function NumberBox({ label, value, min, max, step, whole, standard, id, disabled, onChange }: NumberBoxProps) {
+  const [draft, setDraft] = useState<string | null>(null);
+  const gesture = useGesture(label);
+  const drag = useRef<{ x: number; value: number; moved: boolean } | null>(null);
+  const unit = step ?? (whole ? 1 : stepFor(value));
+  const limited = (next: number) => clampTo(whole ? Math.round(next) : tidy(next, unit), min, max);
+  const change = (next: number) => {
+    const good = limited(next);
+    if (good !== value) onChange(good, gesture.current());
+  };
+  const commit = () => {
+    const typed = draft === null ? null : readNumber(draft);
+    setDraft(null);
+    gesture.next();
+    if (typed !== null) change(whole ? Math.round(typed) : typed);
+    gesture.next();
+  };
+  return (
+    <input
+      class={`number${standard ? " standard" : ""}`}
+      type="text"
+      inputMode="decimal"
+      role="spinbutton"
+      id={id}
+      disabled={disabled}
+      aria-label={label}
+      aria-valuenow={value}
+      aria-valuemin={plain(min)}
+      aria-valuemax={plain(max)}
+      autocomplete="off"
+      value={draft ?? showNumber(value)}
+      onInput={(event) => setDraft(event.currentTarget.value)}
+      onBlur={commit}
+      onKeyDown={(event) => {
+        if (event.key === "Enter") {
+          commit();
+          event.currentTarget.select();
+        } else if (event.key === "Escape" && draft !== null) {
+          setDraft(null);
+          event.stopPropagation();
+        } else if (event.key === "ArrowUp" || event.key === "ArrowDown") {
+          event.preventDefault();
+          const size = unit * (event.shiftKey ? 10 : event.altKey && !whole ? 0.1 : 1);
+          setDraft(null);
+          change((readNumber(draft ?? "") ?? value) + (event.key === "ArrowUp" ? size : -size));
+        }
+      }}
+      onPointerDown={(event) => {
+        if (event.button !== 0 || document.activeElement === event.currentTarget) return;
+        drag.current = { x: event.clientX, value, moved: false };
+      }}
+      onPointerMove={(event) => {
+        const from = drag.current;
+        if (from === null) return;
+        const distance = event.clientX - from.x;
+        if (!from.moved && Math.abs(distance) < 4) return;
+        if (!from.moved) {
+          from.moved = true;
+          event.currentTarget.setPointerCapture(event.pointerId);
+          event.currentTarget.blur();
+        }
+        change(from.value + Math.round(distance / 3) * unit * (event.shiftKey ? 10 : 1));
+      }}
+      onPointerUp={() => {
+        drag.current = null;
+        gesture.next();
+      }}
+      onPointerCancel={() => {
+        drag.current = null;
+        gesture.next();
+      }}
+    />
+  );
+}
+
+/** For attributes that know no exponents. */
+function plain(limit: number | undefined): number | undefined {
+  return limit !== undefined && /^-?\d+(\.\d+)?$/.test(String(limit)) ? limit : undefined;
+}
+
+/** A row: its name, and the number. A double click on the name takes the default. */
+export function NumberField(props: NumberBoxProps & { unit?: string; title?: string; onReset?: () => void }) {
+  const id = useId();
+  return (
+    <div class="row" title={props.title}>
+      <label for={id} onDblClick={props.onReset}>{props.label}</label>
+      <span class="row-end">
+        <NumberBox {...props} id={id} />
+        {props.unit !== undefined && <span class="unit">{props.unit}</span>}
+      </span>
+    </div>
+  );
+}
+
+/** A row of numbers that belong together. */
+export function VectorField({ label, names, value, onChange, min, max, step, standard, onReset, title }: {
+  label: string;
+  names: readonly string[];
+  value: readonly number[];
+  min?: number;
+  max?: number;
+  step?: number;
+  standard?: boolean;
+  title?: string;
+  onChange(value: number[], gesture: string): void;
+  onReset?: () => void;
+}) {
+  return (
+    <div class="row" role="group" aria-label={label} title={title}>
+      <span class="row-name" onDblClick={onReset}>{label}</span>
+      <span class="row-end row-vector">
+        {value.map((number, i) => (
+          <NumberBox
+            key={i}
+            label={`${label} ${names[i]}`}
+            value={number}
+            min={min}
+            max={max}
+            step={step}
+            standard={standard}
+            onChange={(next, gesture) => onChange(value.map((old, k) => (k === i ? next : old)), gesture)}
+          />
+        ))}
+      </span>
+    </div>
+  );
+}

@@ -1,0 +1,46 @@
+import { effect, signal } from "@preact/signals";
+import { render } from "preact";
+import { Files } from "./connection/files";
+import { projectOf, socketAddress, tokenOf } from "./connection/link";
+import type { Socket } from "./connection/connection";
+import { App } from "./shell/app";
+import { keptPreferences } from "./store/preferences";
+import { Studio } from "./store/studio";
+import "./styles/theme.css";
+import "./styles/controls.css";
+import "./styles/layout.css";
+import "./styles/panels.css";
+
+const address = window.location.href;
+const token = tokenOf(address);
+const dark = window.matchMedia("(prefers-color-scheme: dark)");
+const systemDark = signal(dark.matches);
+dark.addEventListener("change", () => (systemDark.value = dark.matches));
+
+const studio = new Studio({
+  openSocket: () => new WebSocket(socketAddress(address, token)) as Socket,
+  files: new Files(address, token),
+  preferences: keptPreferences(window.localStorage),
+  systemDark,
+  firstProject: projectOf(address),
+  onProject: (id) => window.history.replaceState(null, "", `#project=${id}`),
+  later: (milliseconds, action) => {
+    const timer = window.setTimeout(action, milliseconds);
+    return () => window.clearTimeout(timer);
+  },
+  random: Math.random,
+});
+
+effect(() => {
+  document.documentElement.dataset["theme"] = studio.dark.value ? "dark" : "light";
+});
+effect(() => {
+  const name = studio.document.value?.project.name;
+  document.title = name === undefined ? "Espalier studio" : `${name} – Espalier studio`;
+});
+
+studio.watch();
+render(<App studio={studio} />, document.getElementById("studio")!);
+studio.connection.connect();
+// What was typed a moment ago is not lost with the page.
+window.addEventListener("pagehide", () => studio.edits.flush());

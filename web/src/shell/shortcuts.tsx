@@ -1,0 +1,185 @@
+// Keys of the page: the same list is the sheet that `?` shows.
+import type { Side, Tool } from "../view/host";
+import type { Studio } from "../store/studio";
+import { countOf } from "../store/scene";
+import { Dialog } from "./dialog";
+import { currentView } from "./view_access";
+
+export interface Shortcut {
+  /** As a KeyboardEvent has it: "z", "F8", "?". */
+  key: string;
+  mod?: boolean;
+  shift?: boolean;
+  words: string;
+  group: string;
+  /** Also while text is typed. */
+  everywhere?: boolean;
+  /** Not on the sheet: another key for the same. */
+  unlisted?: boolean;
+  run?(studio: Studio): void;
+}
+
+const tool = (key: string, name: Tool, words: string): Shortcut => ({ key, words, group: "Tools", run: (studio) => studio.setTool(name) });
+const side = (key: string, shift: boolean, name: Side, words: string): Shortcut => ({
+  key, shift, words, group: "View", run: () => currentView.value?.snap(name),
+});
+const toggle = (key: string, name: "parts" | "bones" | "field" | "targets" | "ground" | "reach", words: string): Shortcut => ({
+  key, words, group: "View", run: (studio) => studio.setPreferences({ [name]: !studio.preferences.value[name] }),
+});
+
+function onSelected(studio: Studio, action: "removeTarget" | "duplicateTarget"): void {
+  const selection = studio.state.selection.value;
+  if (selection !== null && selection.kind !== "gene") studio[action](selection.kind, selection.index);
+}
+
+/** The next or previous target. */
+function stepTarget(studio: Studio, step: 1 | -1): void {
+  const scene = studio.scene.value;
+  const all = (["curve", "mesh", "silhouette"] as const).flatMap((kind) =>
+    Array.from({ length: countOf(scene, kind) }, (_, index) => ({ kind, index })),
+  );
+  if (all.length === 0) return;
+  const now = studio.state.selection.value;
+  const at = all.findIndex((one) => now !== null && now.kind === one.kind && now.index === one.index);
+  studio.select(all[at < 0 ? (step > 0 ? 0 : all.length - 1) : (at + step + all.length) % all.length]!);
+}
+
+export const SHORTCUTS: readonly Shortcut[] = [
+  { key: "z", mod: true, words: "Undo, whatever it was", group: "Editing", everywhere: true, run: (studio) => studio.undo() },
+  { key: "z", mod: true, shift: true, words: "Redo", group: "Editing", everywhere: true, run: (studio) => studio.redo() },
+  { key: "y", mod: true, words: "Redo", group: "Editing", unlisted: true, everywhere: true, run: (studio) => studio.redo() },
+  { key: "d", mod: true, words: "Duplicate the selected target", group: "Editing", run: (studio) => onSelected(studio, "duplicateTarget") },
+  { key: "Delete", words: "Delete the selected target", group: "Editing", run: (studio) => onSelected(studio, "removeTarget") },
+  { key: "Backspace", words: "Delete the selected target", group: "Editing", unlisted: true, run: (studio) => onSelected(studio, "removeTarget") },
+  { key: "]", words: "Select the next target", group: "Editing", run: (studio) => stepTarget(studio, 1) },
+  { key: "[", words: "Select the target before", group: "Editing", run: (studio) => stepTarget(studio, -1) },
+  { key: "Escape", words: "Select nothing; the select tool", group: "Editing", run: (studio) => {
+    studio.setTool("select");
+    studio.select(null);
+  } },
+  tool("v", "select", "Select and move"),
+  tool("c", "curve", "Draw a curve"),
+  tool("b", "box", "Place a box"),
+  tool("o", "sphere", "Place a sphere"),
+  tool("u", "cylinder", "Place a cylinder"),
+  tool("p", "paint", "Paint a silhouette"),
+  { key: "f", words: "See all of it", group: "View", run: () => currentView.value?.frame() },
+  side("1", false, "+z", "From the front"),
+  side("1", true, "-z", "From behind"),
+  side("3", false, "+x", "From the right"),
+  side("3", true, "-x", "From the left"),
+  side("7", false, "+y", "From above"),
+  side("7", true, "-y", "From below"),
+  toggle("g", "ground", "Ground"),
+  toggle("m", "parts", "Model"),
+  toggle("j", "bones", "Bones"),
+  toggle("w", "field", "Field of directions"),
+  toggle("t", "targets", "Targets"),
+  toggle("h", "reach", "Where the rule under the cursor can reach"),
+  { key: " ", words: "Start or stop the search", group: "Search", run: (studio) => studio.toggleSearch() },
+  { key: "k", words: "Keep the model as a favourite", group: "Search", run: (studio) => {
+    if (studio.state.shown.value !== null) void studio.ask({ kind: "keep_favourite" });
+  } },
+  { key: "l", words: "Lock or free the selected gene", group: "Search", run: (studio) => {
+    const gene = studio.state.gene.value;
+    if (gene !== null && studio.state.selection.value?.kind === "gene") void studio.setLock(!gene.locked);
+  } },
+  { key: "s", mod: true, words: "Format the grammar (all is saved as you go)", group: "Grammar", everywhere: true, run: (studio) => studio.format() },
+  { key: "F8", words: "Next problem", group: "Grammar" },
+  { key: "F12", words: "Go to the definition (or Ctrl-click)", group: "Grammar" },
+  { key: "/", mod: true, words: "Comment lines", group: "Grammar" },
+  { key: "f", mod: true, words: "Find and replace", group: "Grammar" },
+  { key: " ", mod: true, words: "Complete", group: "Grammar" },
+  { key: "o", mod: true, words: "Projects", group: "Page", everywhere: true, run: (studio) => {
+    studio.state.dialog.value = "projects";
+  } },
+  { key: "e", mod: true, words: "To the grammar and back to the view", group: "Page", everywhere: true, run: () => switchFocus() },
+  { key: "?", words: "This sheet", group: "Page", run: (studio) => {
+    studio.state.dialog.value = "shortcuts";
+  } },
+];
+
+function switchFocus(): void {
+  const editor = document.querySelector(".grammar-editor")?.shadowRoot?.querySelector<HTMLElement>(".cm-content");
+  const view = document.querySelector<HTMLElement>(".view-element");
+  if (document.activeElement?.shadowRoot?.activeElement === editor) view?.focus();
+  else editor?.focus();
+}
+
+const kTextual = new Set(["text", "search", "number", ""]);
+
+/** Whether keys are text there. */
+export function takesText(target: EventTarget | null | undefined): boolean {
+  if (!(target instanceof HTMLElement)) return false;
+  if (target.isContentEditable || target.tagName === "TEXTAREA" || target.tagName === "SELECT") return true;
+  return target.tagName === "INPUT" && kTextual.has((target as HTMLInputElement).type);
+}
+
+/** Keys that the focused thing itself understands: Space presses a button, Enter too, arrows move a slider. */
+function takesSpace(target: EventTarget | null | undefined): boolean {
+  return target instanceof HTMLElement && target.matches("button, a, input, summary, [role=tab], [role=menuitem]");
+}
+
+export type KeyPress = Pick<KeyboardEvent, "key" | "code" | "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;
+
+export function shortcutFor(event: KeyPress, inText: boolean): Shortcut | undefined {
+  if (event.altKey) return undefined;
+  const mod = event.ctrlKey || event.metaKey;
+  // With Shift a digit is another letter, which one depends on the keyboard; a number pad has them with and without.
+  const digit = /^(?:Digit|Numpad)(\d)$/.exec(event.code)?.[1];
+  const key = (event.shiftKey ? digit : undefined) ?? (event.key.length === 1 ? event.key.toLowerCase() : event.key);
+  return SHORTCUTS.find(
+    (one) => one.run !== undefined && one.key === key && Boolean(one.mod) === mod && (!inText || one.everywhere) &&
+      (Boolean(one.shift) === event.shiftKey || (one.shift === undefined && !one.mod && /[^a-z]/.test(key))),
+  );
+}
+
+export function listenForShortcuts(studio: Studio): () => void {
+  const onKeyDown = (event: KeyboardEvent) => {
+    if (event.defaultPrevented || document.querySelector("dialog[open]") !== null) return;
+    const target = event.composedPath()[0];
+    if (event.key === " " && takesSpace(target)) return;
+    const shortcut = shortcutFor(event, takesText(target));
+    if (shortcut === undefined) return;
+    event.preventDefault();
+    shortcut.run!(studio);
+  };
+  window.addEventListener("keydown", onKeyDown);
+  return () => window.removeEventListener("keydown", onKeyDown);
+}
+
+export function keyNames(shortcut: Shortcut): string[] {
+  const key = shortcut.key === " " ? "Space" : shortcut.key.length === 1 ? shortcut.key.toUpperCase() : shortcut.key;
+  return [...(shortcut.mod ? ["Ctrl"] : []), ...(shortcut.shift ? ["Shift"] : []), key];
+}
+
+export function ShortcutsDialog({ onClose }: { onClose(): void }) {
+  const groups = [...new Set(SHORTCUTS.map((one) => one.group))];
+  return (
+    <Dialog title="Keys" kind="shortcuts" onClose={onClose}>
+      <div class="shortcut-groups">
+        {groups.map((group) => (
+          <section key={group} aria-label={group}>
+            <h3>{group}</h3>
+            <dl>
+              {SHORTCUTS.filter((one) => one.group === group && !one.unlisted).map((one, i) => (
+                <div key={i}>
+                  <dt>{keyNames(one).map((name) => <kbd key={name}>{name}</kbd>)}</dt>
+                  <dd>{one.words}</dd>
+                </div>
+              ))}
+            </dl>
+          </section>
+        ))}
+        <section aria-label="Numbers">
+          <h3>Numbers and sliders</h3>
+          <dl>
+            <div><dt><kbd>↑</kbd><kbd>↓</kbd></dt><dd>A step; with Shift ten, with Alt a tenth</dd></div>
+            <div><dt>Drag</dt><dd>Sideways over a number changes it</dd></div>
+            <div><dt>Double click</dt><dd>On a name takes the default</dd></div>
+          </dl>
+        </section>
+      </div>
+    </Dialog>
+  );
+}

@@ -1,0 +1,406 @@
+// What a person can do, and the state that it changes. One history for all: undo and redo are the server's.
+import { batch, computed, effect, type Signal } from "@preact/signals";
+import type { Camera, Curve, Document, Scene } from "../api";
+import { Connection, RequestFailed, type Ask, type Socket, type Status } from "../connection/connection";
+import { Files, freeName } from "../connection/files";
+import type { Look, ViewHost } from "../view/host";
+import { applyBinary, applyMessage } from "./apply_message";
+import { EditQueue } from "./edit_queue";
+import type { Preferences } from "./preferences";
+import {
+  addSilhouette, changeSilhouette, countOf, curvesOf, duplicateTarget, FIRST_CURVE, removeTarget, sameCamera,
+  silhouettesOf, withGuidedEngine, type TargetKind,
+} from "./scene";
+import { stable } from "./stable";
+import { addLog, newState, type TargetSelection } from "./state";
+
+export interface StudioOptions {
+  openSocket(): Socket;
+  files: Files;
+  preferences: Signal<Preferences>;
+  /** Whether the system wants dark. */
+  systemDark: Signal<boolean>;
+  firstProject: number | null;
+  /** The project is open now: for the address bar. */
+  onProject(id: number): void;
+  later(milliseconds: number, action: () => void): () => void;
+  random(): number;
+}
+
+/** Milliseconds without a key before typed text is sent. */
+export const kTypingPause = 150;
+const kNoticeMilliseconds = 5000;
+/** What a search may take where the scene says nothing; the server's own default. */
+export const kSecondsDefault = 2;
+
+export class Studio implements ViewHost {
+  readonly state = newState();
+  readonly connection: Connection;
+  readonly edits: EditQueue;
+  readonly files: Files;
+  readonly preferences: Signal<Preferences>;
+
+  /** The document as a person sees it: the server's with what is on its way laid over it. */
+  readonly document = computed<Document | null>(() => {
+    const confirmed = this.state.confirmed.value;
+    return confirmed === null ? null : { ...confirmed, ...this.edits.overlay.value };
+  });
+  readonly grammar = computed(() => this.document.value?.grammar ?? "");
+  /** Every message of the server brings the scene anew; it is another one only when it says something else. */
+  readonly scene = stable<Scene>(() => this.document.value?.scene ?? {});
+  readonly dark = computed(() => {
+    const theme = this.preferences.value.theme;
+    return theme === "system" ? this.options.systemDark.value : theme === "dark";
+  });
+  readonly look = stable<Look>(() => {
+    const { parts, bones, field, targets, ground } = this.preferences.value;
+    return { parts, bones, field, targets, ground, dark: this.dark.value };
+  });
+
+  private project: number | null;
+  private firstList = true;
+  private notices = 0;
+  private nextDraw: { index: number; quantile: number; gesture: string } | null = null;
+  private drawUnderWay = false;
+
+  constructor(private readonly options: StudioOptions) {
+    this.files = options.files;
+    this.preferences = options.preferences;
+    this.project = options.firstProject;
+    this.connection = new Connection({
+      open: options.openSocket,
+      later: options.later,
+      random: options.random,
+      onStatus: (status) => this.onStatus(status),
+      onMessage: (message) => {
+        applyMessage(this.state, message);
+        if (message.kind === "projects") this.onProjects();
+        if (message.kind === "document" && this.project !== message.project.id) {
+          this.project = message.project.id;
+          options.onProject(message.project.id);
+        }
+      },
+      onBinary: (kind, data) => applyBinary(this.state, kind, data),
+      onNonsense: (text) => addLog(this.state, "warning", `The server sent ${text}.`),
+    });
+    this.edits = new EditQueue({
+      send: (edit) => this.connection.request({ kind: "edit", ...edit }),
+      onFailed: (edit, text) => this.tell(`${edit.label}: ${text}`, true),
+      later: options.later,
+    });
+  }
+
+  // --- Connection -------------------------------------------------------------------------------------------------------
+
+  private onStatus(status: Status): void {
+    this.state.status.value = status;
+    if (status.kind !== "open") this.edits.pause();
+    else this.firstList = true;
+  }
+
+  /** The first list of a connection: opens the project that was open, the one of the address, or the newest. */
+  private onProjects(): void {
+    if (!this.firstList) return;
+    this.firstList = false;
+    const list = this.state.projects.value;
+    const newest = [...list].sort((a, b) => b.changed - a.changed)[0]?.id;
+    const id = list.some((project) => project.id === this.project) ? this.project! : newest;
+    if (this.state.confirmed.value !== null && id !== this.state.confirmed.value.project.id) {
+      this.edits.clear();
+      this.tell("The project that was open is not there any more.", true);
+    }
+    if (id === undefined) {
+      this.state.confirmed.value = null;
+      this.state.dialog.value = "projects";
+    } else void this.openProject(id);
+  }
+
+  /** Sends a request; tells the person when it fails. */
+  async ask(ask: Ask): Promise<boolean> {
+    try {
+      await this.connection.request(ask);
+      return true;
+    } catch (error) {
+      if (error instanceof RequestFailed) this.tell(error.message, true);
+      return false;
+    }
+  }
+
+  /** After all edits that were made before it. */
+  private askAfterEdits(ask: Ask): Promise<boolean> {
+    this.edits.flush();
+    return this.ask(ask);
+  }
+
+  tell(text: string, bad = false): void {
+    const number = ++this.notices;
+    this.state.notices.value = [...this.state.notices.value, { number, text, bad }].slice(-3);
+    if (bad) addLog(this.state, "error", text);
+    this.options.later(kNoticeMilliseconds, () => {
+      this.state.notices.value = this.state.notices.value.filter((notice) => notice.number !== number);
+    });
+  }
+
+  // --- Projects ---------------------------------------------------------------------------------------------------------
+
+  async openProject(id: number): Promise<boolean> {
+    this.edits.flush();
+    const other = this.state.confirmed.value !== null && this.state.confirmed.value.project.id !== id;
+    if (other) this.edits.pause();
+    const opened = await this.ask({ kind: "open_project", project: id });
+    if (opened) {
+      if (other) this.edits.clear();
+      this.edits.resume();
+    } else if (this.state.status.value.kind === "open") {
+      if (other) this.edits.resume();
+      else this.state.dialog.value = "projects";
+    }
+    return opened;
+  }
+
+  async createProject(name: string, sample?: string): Promise<void> {
+    await this.openWhatAppears({ kind: "create_project", name, ...(sample === undefined ? {} : { sample }) });
+  }
+
+  async duplicateProject(id: number): Promise<void> {
+    await this.ask({ kind: "duplicate_project", project: id });
+  }
+
+  async importProject(file: Blob): Promise<void> {
+    try {
+      const id = await this.files.importProject(file);
+      if (await this.openProject(id)) this.state.dialog.value = null;
+    } catch (error) {
+      this.tell(`The project could not be imported: ${(error as Error).message}`, true);
+    }
+  }
+
+  private async openWhatAppears(ask: Ask): Promise<void> {
+    this.edits.flush();
+    const before = new Set(this.state.projects.value.map((project) => project.id));
+    if (!(await this.ask(ask))) return;
+    const made = this.state.projects.value.find((project) => !before.has(project.id));
+    if (made !== undefined && this.state.confirmed.value?.project.id !== made.id) await this.openProject(made.id);
+    else this.edits.resume();
+    this.state.dialog.value = null;
+  }
+
+  // --- Editing ----------------------------------------------------------------------------------------------------------
+
+  /** Of the grammar, while typing: sent when the keys rest. */
+  type(grammar: string, gesture: string, rule: string | null): void {
+    this.edits.push({ label: rule === null ? "Edit grammar" : `Edit ${rule}`, gesture, grammar, search: this.live() }, kTypingPause);
+  }
+
+  setGrammar(label: string, grammar: string): void {
+    this.edits.push({ label, grammar, search: this.live() });
+  }
+
+  setScene(label: string, scene: Scene, gesture?: string): void {
+    if (this.state.confirmed.value === null) return;
+    this.edits.push({ label, scene, search: this.live(), ...(gesture === undefined ? {} : { gesture }) });
+  }
+
+  private live(): boolean {
+    return this.preferences.value.live;
+  }
+
+  undo(): void {
+    void this.askAfterEdits({ kind: "undo" });
+  }
+  redo(): void {
+    void this.askAfterEdits({ kind: "redo" });
+  }
+  format(): void {
+    void this.askAfterEdits({ kind: "format" });
+  }
+
+  removeTarget(kind: TargetKind, index: number): void {
+    batch(() => {
+      this.setScene(`Delete ${kind} ${index + 1}`, removeTarget(this.scene.value, kind, index));
+      const { curves, meshes } = this.state.hidden.value;
+      const without = (list: readonly number[]) => list.filter((i) => i !== index).map((i) => (i > index ? i - 1 : i));
+      this.state.hidden.value = {
+        curves: kind === "curve" ? without(curves) : curves,
+        meshes: kind === "mesh" ? without(meshes) : meshes,
+      };
+      this.state.selection.value = null;
+    });
+  }
+
+  duplicateTarget(kind: TargetKind, index: number): void {
+    batch(() => {
+      this.setScene(`Duplicate ${kind} ${index + 1}`, duplicateTarget(this.scene.value, kind, index));
+      this.state.selection.value = { kind, index: countOf(this.scene.value, kind) - 1 };
+    });
+  }
+
+  toggleHidden(kind: "curve" | "mesh", index: number): void {
+    const hidden = this.state.hidden.value;
+    const key = kind === "curve" ? "curves" : "meshes";
+    const list = hidden[key].includes(index) ? hidden[key].filter((i) => i !== index) : [...hidden[key], index];
+    this.state.hidden.value = { ...hidden, [key]: list };
+  }
+
+  /** The name that the file got, or null. */
+  async addFile(name: string, content: Blob): Promise<string | null> {
+    const document = this.document.value;
+    if (document === null) return null;
+    const free = freeName(name, document.files.map((file) => file.path));
+    try {
+      await this.files.upload(document.project.id, free, content);
+      return free;
+    } catch (error) {
+      this.tell(`${name} could not be added: ${(error as Error).message}`, true);
+      return null;
+    }
+  }
+
+  setPreferences(changes: Partial<Preferences>): void {
+    this.preferences.value = { ...this.preferences.value, ...changes };
+  }
+
+  // --- Search -----------------------------------------------------------------------------------------------------------
+
+  seconds(): number {
+    const seconds = this.scene.value["budget"]?.["seconds"];
+    return typeof seconds === "number" ? seconds : kSecondsDefault;
+  }
+
+  startSearch(how: "new" | "onward"): void {
+    const locked = (this.state.shown.value?.locked.length ?? 0) > 0;
+    const seconds = Math.min(86400, Math.max(0.01, this.seconds()));
+    void this.askAfterEdits(
+      how === "onward"
+        ? { kind: "start_search", seconds, onward: true }
+        : { kind: "start_search", seconds, from: locked ? "shown" : "nothing" },
+    );
+  }
+
+  stopSearch(): void {
+    void this.ask({ kind: "stop_search" });
+  }
+
+  toggleSearch(): void {
+    if (this.state.status.value.kind !== "open" || this.document.value === null) return;
+    if (this.state.search.value?.running) this.stopSearch();
+    else this.startSearch("new");
+  }
+
+  /** One is on its way at a time, because each makes a new model in which the gene has another number; then the newest. */
+  setDraw(index: number, quantile: number, gesture: string): void {
+    this.nextDraw = { index, quantile, gesture };
+    if (!this.drawUnderWay) void this.sendDraws();
+  }
+
+  private async sendDraws(): Promise<void> {
+    this.drawUnderWay = true;
+    for (let next = this.nextDraw; next !== null; next = this.nextDraw) {
+      this.nextDraw = null;
+      const gene = this.state.gene.value;
+      if (gene === null || !(await this.ask({ kind: "set_draw", gene: gene.gene, model: gene.model, ...next }))) break;
+    }
+    this.nextDraw = null;
+    this.drawUnderWay = false;
+  }
+
+  async setLock(locked: boolean): Promise<void> {
+    const gene = this.state.gene.value;
+    if (gene === null) return;
+    if (await this.ask({ kind: "set_lock", gene: gene.gene, model: gene.model, locked })) this.askGeneAgain();
+  }
+
+  /** The selected gene as it is in the model that is shown now, if it is still the same. */
+  private askGeneAgain(): void {
+    const { gene, shown, wantedPath, selection } = this.state;
+    const before = gene.peek();
+    const model = shown.peek()?.model;
+    if (before === null || model === undefined || selection.peek()?.kind !== "gene") return;
+    wantedPath.value = before.path;
+    // A model that is not there any more was followed by another, for which this is done again.
+    this.connection.request({ kind: "ask_gene", gene: before.gene, model }).catch(() => undefined);
+  }
+
+  // --- What the view asks for -------------------------------------------------------------------------------------------
+
+  edit(change: { label: string; gesture?: string; scene: Scene; search: boolean }): void {
+    if (this.state.confirmed.value === null) return;
+    const scene = withGuidedEngine(this.scene.value, change.scene);
+    this.edits.push({ ...change, scene, search: change.search && this.live() });
+  }
+
+  select(selection: TargetSelection | null): void {
+    this.state.selection.value = selection;
+    const model = this.state.shown.value?.model;
+    if (selection?.kind === "gene") {
+      this.state.wantedPath.value = null;
+      if (model !== undefined) void this.ask({ kind: "ask_gene", gene: selection.gene, model });
+    } else this.state.gene.value = null;
+  }
+
+  setTool(tool: Studio["state"]["tool"]["value"]): void {
+    this.state.tool.value = tool;
+  }
+
+  newCurve(): Omit<Curve, "points"> {
+    const curves = curvesOf(this.scene.value);
+    const selection = this.state.selection.value;
+    const curve = (selection?.kind === "curve" ? curves[selection.index] : undefined) ?? curves.at(-1);
+    if (curve === undefined) return FIRST_CURVE;
+    const { points: _, ...settings } = curve;
+    return settings;
+  }
+
+  painted(image: Blob, camera: Camera): void {
+    void this.addPainted(image, camera);
+  }
+
+  private async addPainted(image: Blob, camera: Camera): Promise<void> {
+    const file = await this.addFile("painted.png", image);
+    if (file === null) return;
+    const before = this.scene.value;
+    const index = silhouettesOf(before).findIndex((silhouette) => sameCamera(silhouette.camera, camera));
+    const scene = index >= 0
+      ? changeSilhouette(before, index, { image: file, want_image: undefined, avoid_image: undefined })
+      : addSilhouette(before, { image: file, view: "parts", camera });
+    this.setScene("Paint silhouette", scene);
+    this.state.selection.value = { kind: "silhouette", index: index >= 0 ? index : silhouettesOf(scene).length - 1 };
+  }
+
+  drawn(_model: number, milliseconds: number): void {
+    this.state.drawn.value = milliseconds;
+  }
+
+  /** Keeps what follows from the state itself; call once. */
+  watch(): () => void {
+    const stops = [
+      // A gene's number means nothing in another model.
+      effect(() => {
+        const model = this.state.shown.value?.model;
+        if (model !== undefined && this.state.gene.peek() !== null && this.state.gene.peek()!.model !== model) this.askGeneAgain();
+      }),
+      // Where the rule under the cursor can reach: asked when the cursor rests, and again when the grammar has changed.
+      this.watchReach(),
+    ];
+    return () => stops.forEach((stop) => stop());
+  }
+
+  private watchReach(): () => void {
+    let cancel: (() => void) | null = null;
+    return effect(() => {
+      const rule = this.preferences.value.reach ? this.state.cursorRule.value : null;
+      const checked = this.state.checked.value;
+      cancel?.();
+      cancel = null;
+      if (rule === null || checked === null) {
+        this.state.cloud.value = null;
+        return;
+      }
+      const known = checked.symbols.some((symbol) => symbol.kind === "rule" && symbol.name === rule);
+      if (!known || checked.problems.some((problem) => problem.severity === "error")) return;
+      cancel = this.options.later(kTypingPause, () => {
+        void this.connection.request({ kind: "ask_reach", rule }).catch(() => undefined);
+      });
+    });
+  }
+}

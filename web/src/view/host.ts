@@ -1,0 +1,77 @@
+// What the view and the rest of the page know of each other.
+import type { Camera, Curve, Scene } from "../api";
+
+export type Tool = "select" | "curve" | "box" | "sphere" | "cylinder" | "paint";
+export type Brush = "want" | "avoid" | "erase";
+export type Side = "+x" | "-x" | "+y" | "-y" | "+z" | "-z";
+
+/** What is selected, by its place in the scene. */
+export type Selection =
+  | { kind: "curve"; index: number; point?: number }
+  | { kind: "mesh"; index: number }
+  | { kind: "gene"; gene: number };
+
+/** What the view asks for. All of it ends up as an edit of the document. */
+export interface ViewHost {
+  /** The scene shall be `scene`. Edits with the same gesture in a row are one step of undo; `search`: search anew. */
+  edit(change: { label: string; gesture?: string; scene: Scene; search: boolean }): void;
+  select(selection: Selection | null): void;
+  setTool(tool: Tool): void;
+  /** Settings of a curve that is drawn: those of the curve drawn or selected last. */
+  newCurve(): Omit<Curve, "points">;
+  /** A painted silhouette for the camera it was painted with. */
+  painted(image: Blob, camera: Camera): void;
+  /** The first frame with a new model was submitted: number of the model, milliseconds since it arrived. */
+  drawn(model: number, milliseconds: number): void;
+}
+
+export interface Look {
+  parts: boolean;
+  bones: boolean;
+  field: boolean;
+  targets: boolean;
+  ground: boolean;
+  dark: boolean;
+}
+
+export interface Highlight {
+  rule?: string;
+  gene?: number;
+  locked: number[];
+}
+
+/** Targets that are not shown, by their places in the scene. */
+export interface Hidden {
+  curves: readonly number[];
+  meshes: readonly number[];
+}
+
+export const kNoneHidden: Hidden = { curves: [], meshes: [] };
+
+/** Whether that target is among them. */
+export function isHidden(hidden: Hidden, target: { kind: string; index?: number }): boolean {
+  if (target.index === undefined) return false;
+  return target.kind === "curve" ? hidden.curves.includes(target.index)
+    : target.kind === "mesh" && hidden.meshes.includes(target.index);
+}
+
+export interface StudioView {
+  /** Binary messages as they come: docs/studio-protocol.md. */
+  setMeshes(message: ArrayBuffer): void;
+  setModel(message: ArrayBuffer): void;
+  setCloud(message: ArrayBuffer | null): void;
+  setRules(names: string[]): void;
+  setScene(scene: Scene, fileUrl: (path: string) => string): void;
+  /** Targets that shall not be drawn, nor taken by the pointer or by Tab, although they count. */
+  setHidden(hidden: Hidden): void;
+  setSelection(selection: Selection | null): void;
+  setTool(tool: Tool): void;
+  setBrush(brush: Brush, radius: number): void;
+  setLook(look: Look): void;
+  setHighlight(highlight: Highlight): void;
+  snap(side: Side): void;
+  /** Moves the camera so that all is seen. */
+  frame(): void;
+  camera(): Camera;
+  dispose(): void;
+}

@@ -1,0 +1,230 @@
+// The model's parts: one instanced draw call per mesh of the table. A message's records are copied once, sorted by
+// mesh, into buffers that only ever grow; materials and marks of genes are small textures. Nothing is made per part.
+import {
+  BufferAttribute, DataTexture, DoubleSide, DynamicDrawUsage, FloatType, GLSL3, Group, InstancedBufferGeometry,
+  InstancedInterleavedBuffer, InterleavedBufferAttribute, Mesh, NearestFilter, RawShaderMaterial, RedFormat,
+  RGBAFormat, UnsignedByteType,
+  Vector2, Vector3, Matrix4, type Texture,
+} from "three";
+import { kInstanceWords, kMaterialFloats, type MeshTable, type ModelMessage } from "./messages";
+import { extentOf, kProxy, type Extent } from "./part_picker";
+import { kPartsFragment, kPartsVertex, kShadowFragment, kShadowVertex } from "./parts_shader";
+import type { Box } from "./vec";
+
+const kMarkWidth = 1024, kMaterialRow = 64;
+/** Shorter runs are copied word by word: a view into the message for each would cost more than it saves. */
+const kRun = 32;
+
+/** The box around instances, in plain numbers: a hundred thousand of them take a millisecond or two. */
+class BoxOfParts {
+  private x0 = Infinity;
+  private y0 = Infinity;
+  private z0 = Infinity;
+  private x1 = -Infinity;
+  private y1 = -Infinity;
+  private z1 = -Infinity;
+
+  /** The instance whose frame is at `w`; `wide` is how much wider than its mesh a cone may be. */
+  add(f: Float32Array, w: number, { middle, half }: Extent, wide: number): void {
+    const mx = middle[0], my = middle[1], mz = middle[2], hx = half[0], hy = half[1], hz = half[2];
+    const ax = f[w]!, ay = f[w + 1]!, az = f[w + 2]!, bx = f[w + 3]!, by = f[w + 4]!, bz = f[w + 5]!;
+    const cx = f[w + 6]!, cy = f[w + 7]!, cz = f[w + 8]!, kx = wide * hx, kz = wide * hz;
+    const x = f[w + 9]! + ax * mx + bx * my + cx * mz, rx = Math.abs(ax) * kx + Math.abs(bx) * hy + Math.abs(cx) * kz;
+    const y = f[w + 10]! + ay * mx + by * my + cy * mz, ry = Math.abs(ay) * kx + Math.abs(by) * hy + Math.abs(cy) * kz;
+    const z = f[w + 11]! + az * mx + bz * my + cz * mz, rz = Math.abs(az) * kx + Math.abs(bz) * hy + Math.abs(cz) * kz;
+    if (!(Math.abs(x) + Math.abs(y) + Math.abs(z) + rx + ry + rz < Infinity)) return;
+    if (x - rx < this.x0) this.x0 = x - rx;
+    if (y - ry < this.y0) this.y0 = y - ry;
+    if (z - rz < this.z0) this.z0 = z - rz;
+    if (x + rx > this.x1) this.x1 = x + rx;
+    if (y + ry > this.y1) this.y1 = y + ry;
+    if (z + rz > this.z1) this.z1 = z + rz;
+  }
+
+  box(): Box {
+    return { min: [this.x0, this.y0, this.z0], max: [this.x1, this.y1, this.z1] };
+  }
+}
+
+/** Instances of one mesh. */
+interface Batch {
+  position: BufferAttribute;
+  normal: BufferAttribute;
+  index: BufferAttribute;
+  mesh: Mesh<InstancedBufferGeometry, RawShaderMaterial>;
+  buffer: InstancedInterleavedBuffer;
+  words: Uint32Array;
+  floats: Float32Array;
+  count: number;
+}
+
+export class Parts {
+  readonly group = new Group();
+  readonly material: RawShaderMaterial;
+  readonly shadowMaterial: RawShaderMaterial;
+  readonly marks: { value: DataTexture };
+  readonly markWidth = { value: kMarkWidth };
+  extents: Extent[] = [];
+  private batches: Batch[] = [];
+  private materials: DataTexture;
+
+  constructor(shadows: boolean) {
+    this.marks = { value: texture(new Uint8Array(kMarkWidth), kMarkWidth, 1, false) };
+    this.materials = texture(new Float32Array(12 * kMaterialRow), 3 * kMaterialRow, 1, true);
+    this.material = new RawShaderMaterial({
+      glslVersion: GLSL3, vertexShader: kPartsVertex, fragmentShader: kPartsFragment, side: DoubleSide,
+      defines: shadows ? { SHADOWS: 1 } : {},
+      uniforms: {
+        uMaterials: { value: this.materials }, uMarks: this.marks, uMarkWidth: this.markWidth, uDim: { value: 0 },
+        uLight: { value: 1 },
+        uKey: { value: new Vector3(0.45, 0.8, 0.4).normalize() }, uAccent: { value: [1, 0.6, 0.1] },
+        uLocked: { value: [0.1, 0.4, 0.9] },
+        uShadow: { value: null as Texture | null }, uShadowMatrix: { value: new Matrix4() },
+        uShadowSize: { value: new Vector2(1, 1) },
+      },
+    });
+    this.shadowMaterial = new RawShaderMaterial({
+      glslVersion: GLSL3, vertexShader: kShadowVertex, fragmentShader: kShadowFragment, side: DoubleSide,
+      polygonOffset: true,
+      polygonOffsetFactor: 2, polygonOffsetUnits: 4,
+    });
+  }
+
+  /** New meshes; the parts are gone until a model comes. */
+  setMeshes(table: MeshTable): void {
+    this.clear();
+    this.extents = table.meshes.map(extentOf);
+    this.batches = table.meshes.map((mesh) => {
+      const position = new BufferAttribute(mesh.positions, 3), normal = new BufferAttribute(mesh.normals, 3);
+      const index = new BufferAttribute(mesh.indices, 1);
+      const batch = { position, normal, index, count: 0 } as Batch;
+      this.reserve(batch, 16);
+      return batch;
+    });
+  }
+
+  /** Copies the model's instances and materials; returns the box around the parts. */
+  setModel(model: ModelMessage, table: MeshTable): Box {
+    const { words, floats, instances } = model, batches = this.batches;
+    const counts = new Uint32Array(batches.length);
+    for (let i = 0, w = 14; i < instances; ++i, w += kInstanceWords) ++counts[words[w]! & 0xffff]!;
+    batches.forEach((batch, i) => {
+      if (batch.floats.length < counts[i]! * kInstanceWords) this.reserve(batch, Math.ceil(counts[i]! * 1.3));
+      batch.count = 0;
+    });
+    const box = new BoxOfParts();
+    // Runs of one mesh are copied at once: servers tend to send them so.
+    for (let i = 0; i < instances;) {
+      const number = words[i * kInstanceWords + 14]! & 0xffff, batch = batches[number]!, first = i;
+      while (++i < instances && (words[i * kInstanceWords + 14]! & 0xffff) === number);
+      const from = first * kInstanceWords, length = (i - first) * kInstanceWords, at = batch.count * kInstanceWords;
+      if (i - first > kRun) batch.words.set(words.subarray(from, from + length), at);
+      else for (let k = 0, target = batch.words; k < length; ++k) target[at + k] = words[from + k]!;
+      const cone = table.meshes[number]!.cone, extent = this.extents[number]!, into = batch.floats;
+      for (let w = from, to = at; w < from + length; w += kInstanceWords, to += kInstanceWords) {
+        // Numbers below 2^24 go as floats: a shader may take the bits of small integers for 0.
+        const top = cone ? Math.max(floats[w + 12]!, 0) : 1, layer = words[w + 15]!;
+        into[to + 12] = top;
+        into[to + 13] = words[w + 13]!;
+        into[to + 14] = words[w + 14]! >>> 16;
+        into[to + 15] = layer;
+        if (layer !== kProxy) box.add(floats, w, extent, top > 1 ? top : 1);
+      }
+      batch.count += i - first;
+    }
+    for (const batch of batches) {
+      batch.mesh.geometry.instanceCount = batch.count;
+      batch.mesh.visible = batch.count > 0;
+      if (batch.count === 0) continue;
+      batch.buffer.clearUpdateRanges();
+      batch.buffer.addUpdateRange(0, batch.count * kInstanceWords);
+      batch.buffer.needsUpdate = true;
+    }
+    this.setMaterials(model);
+    this.reserveMarks(model.genes);
+    return box.box();
+  }
+
+  /** One byte per gene; call `marksChanged` after writing. */
+  get markBytes(): Uint8Array {
+    return this.marks.value.image.data as Uint8Array;
+  }
+
+  marksChanged(): void {
+    this.marks.value.needsUpdate = true;
+  }
+
+  uniform(name: string, value: unknown): void {
+    this.material.uniforms[name]!.value = value;
+  }
+
+  dispose(): void {
+    this.clear();
+    this.marks.value.dispose();
+    this.materials.dispose();
+    this.material.dispose();
+    this.shadowMaterial.dispose();
+  }
+
+  private setMaterials(model: ModelMessage): void {
+    const rows = Math.max(1, Math.ceil(model.materials / kMaterialRow));
+    if (this.materials.image.height < rows) {
+      this.materials.dispose();
+      this.materials = texture(new Float32Array(12 * kMaterialRow * rows), 3 * kMaterialRow, rows, true);
+      this.uniform("uMaterials", this.materials);
+    }
+    (this.materials.image.data as Float32Array).set(model.materialFloats.subarray(0,
+      model.materials * kMaterialFloats));
+    this.materials.needsUpdate = true;
+  }
+
+  private reserveMarks(genes: number): void {
+    const rows = Math.max(1, Math.ceil(genes / kMarkWidth));
+    if (this.marks.value.image.height >= rows) return;
+    this.marks.value.dispose();
+    this.marks.value = texture(new Uint8Array(kMarkWidth * rows * 2), kMarkWidth, rows * 2, false);
+  }
+
+  /** A larger buffer, and a geometry that reads it. */
+  private reserve(batch: Batch, count: number): void {
+    batch.floats = new Float32Array(count * kInstanceWords);
+    batch.words = new Uint32Array(batch.floats.buffer);
+    batch.buffer = new InstancedInterleavedBuffer(batch.floats, kInstanceWords);
+    batch.buffer.setUsage(DynamicDrawUsage);
+    const geometry = new InstancedBufferGeometry();
+    geometry.setAttribute("position", batch.position);
+    geometry.setAttribute("normal", batch.normal);
+    geometry.setIndex(batch.index);
+    ["frameX", "frameY", "frameZ", "origin"].forEach((name, i) =>
+      geometry.setAttribute(name, new InterleavedBufferAttribute(batch.buffer, 3, 3 * i)));
+    geometry.setAttribute("extra", new InterleavedBufferAttribute(batch.buffer, 4, 12));
+    geometry.instanceCount = 0;
+    if (batch.mesh) {
+      batch.mesh.geometry.dispose();
+      batch.mesh.geometry = geometry;
+      return;
+    }
+    batch.mesh = new Mesh(geometry, this.material);
+    batch.mesh.frustumCulled = false;
+    batch.mesh.matrixAutoUpdate = false;
+    this.group.add(batch.mesh);
+  }
+
+  private clear(): void {
+    for (const { mesh } of this.batches) {
+      mesh.geometry.dispose();
+      this.group.remove(mesh);
+    }
+    this.batches = [];
+  }
+}
+
+function texture(data: Uint8Array<ArrayBuffer> | Float32Array<ArrayBuffer>, width: number, height: number,
+  floats: boolean): DataTexture {
+  const result = new DataTexture(data, width, height, floats ? RGBAFormat : RedFormat, floats
+    ? FloatType : UnsignedByteType);
+  result.magFilter = result.minFilter = NearestFilter;
+  result.unpackAlignment = 1;
+  result.needsUpdate = true;
+  return result;
+}

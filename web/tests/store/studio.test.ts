@@ -1,0 +1,329 @@
+import { describe, expect, test } from "vitest";
+import type { Camera, Curve } from "../../src/api";
+import { Bench, checkedOf, documentOf, settle, shownOf } from "../fakes";
+
+const curve: Curve = { points: [[0, 0, 0], [0, 1, 0], [0, 2, 0], [0, 3, 0]] };
+
+describe("opening", () => {
+  test("takes the newest project, the one of the address, or asks", async () => {
+    const newest = new Bench();
+    newest.socket.onopen!();
+    newest.sayProjects(4, 9, 2);
+    expect(newest.socket.sent).toMatchObject([{ kind: "open_project", project: 9 }]);
+
+    const own = new Bench(4);
+    own.socket.onopen!();
+    own.sayProjects(4, 9);
+    expect(own.socket.sent).toMatchObject([{ kind: "open_project", project: 4 }]);
+
+    const none = new Bench();
+    none.socket.onopen!();
+    none.sayProjects();
+    expect(none.socket.sent).toEqual([]);
+    expect(none.studio.state.dialog.value).toBe("projects");
+  });
+
+  test("a list that comes later opens nothing", async () => {
+    const bench = await new Bench().open();
+    bench.sayProjects(1, 2);
+    expect(bench.socket.kinds()).toEqual(["open_project"]);
+    expect(bench.opened).toEqual([1]);
+  });
+
+  test("a project that was made is opened, whether or not the server does so itself", async () => {
+    const bench = await new Bench().open();
+    const made = bench.studio.createProject("New", "bonsai");
+    bench.sayProjects(1, 2);
+    await bench.answer("create_project");
+    expect(bench.socket.sent.at(-1)).toMatchObject({ kind: "open_project", project: 2 });
+    bench.socket.say(documentOf(1, "other", {}, 2));
+    await bench.answer("open_project");
+    await made;
+    expect(bench.studio.grammar.value).toBe("other");
+    expect(bench.opened).toEqual([1, 2]);
+  });
+
+  test("another project forgets what belongs to the first", async () => {
+    const bench = await new Bench().open();
+    bench.socket.say(shownOf(3));
+    bench.studio.state.selection.value = { kind: "curve", index: 0 };
+    bench.socket.say(documentOf(1, "b", {}, 2));
+    expect(bench.studio.state.shown.value).toBeNull();
+    expect(bench.studio.state.selection.value).toBeNull();
+  });
+});
+
+describe("a lost connection", () => {
+  test("opens the project again and sends what was not confirmed", async () => {
+    const bench = await new Bench().open("one");
+    bench.studio.setGrammar("Edit", "two");
+    expect(bench.edits()).toHaveLength(1);
+    bench.socket.onclose!();
+    await settle();
+    expect(bench.studio.state.status.value.kind).toBe("waiting");
+    expect(bench.studio.grammar.value).toBe("two");
+    bench.studio.setGrammar("Edit", "three");
+    bench.clock.advance(250);
+    expect(bench.sockets).toHaveLength(2);
+    bench.socket.onopen!();
+    bench.sayProjects(1);
+    expect(bench.socket.sent).toMatchObject([{ kind: "open_project", project: 1 }]);
+    bench.socket.say(documentOf(1, "one"));
+    expect(bench.studio.grammar.value).toBe("three");
+    await bench.answer("open_project");
+    await bench.answer("edit");
+    expect(bench.edits().map((edit) => edit.grammar)).toEqual(["two", "three"]);
+    bench.socket.say(documentOf(3, "three"));
+    await bench.answer("edit");
+    expect(bench.studio.edits.size.value).toBe(0);
+    expect(bench.studio.grammar.value).toBe("three");
+  });
+
+  test("a project that is gone is told of, and its edits with it", async () => {
+    const bench = await new Bench().open("one");
+    bench.socket.onclose!();
+    bench.studio.setGrammar("Edit", "two");
+    bench.clock.advance(250);
+    bench.socket.onopen!();
+    bench.sayProjects(5);
+    expect(bench.studio.edits.size.value).toBe(0);
+    expect(bench.studio.state.notices.value.some((notice) => notice.bad)).toBe(true);
+    expect(bench.socket.sent).toMatchObject([{ kind: "open_project", project: 5 }]);
+  });
+});
+
+describe("editing", () => {
+  test("is seen at once, and confirmed by the server", async () => {
+    const bench = await new Bench().open("one");
+    bench.studio.setScene("Seed", { seed: 7 });
+    expect(bench.studio.scene.value).toEqual({ seed: 7 });
+    expect(bench.studio.state.confirmed.value!.scene).toEqual({});
+    bench.socket.say(documentOf(2, "one", { seed: 7 }));
+    await bench.answer("edit");
+    expect(bench.studio.state.confirmed.value!.revision).toBe(2);
+    expect(bench.studio.scene.value).toEqual({ seed: 7 });
+  });
+
+  test("elsewhere leaves the scene the same object, so that the view rests", async () => {
+    const bench = await new Bench().open("one", { seed: 3 });
+    const before = bench.studio.scene.value;
+    bench.socket.say(documentOf(2, "two", { seed: 3 }));
+    expect(bench.studio.scene.value).toBe(before);
+    bench.socket.say(documentOf(3, "two", { seed: 4 }));
+    expect(bench.studio.scene.value).toEqual({ seed: 4 });
+  });
+
+  test("that the server refuses goes back to what it was", async () => {
+    const bench = await new Bench().open("one");
+    bench.studio.setGrammar("Edit", "two");
+    await bench.answer("edit", "too large");
+    expect(bench.studio.grammar.value).toBe("one");
+    expect(bench.studio.state.notices.value.at(-1)).toMatchObject({ bad: true, text: "Edit: too large" });
+    expect(bench.studio.state.log.value.at(-1)).toMatchObject({ level: "error" });
+  });
+
+  test("undo comes after what was typed a moment ago", async () => {
+    const bench = await new Bench().open("one");
+    bench.studio.type("ones", "typing 1", "Stem");
+    bench.studio.undo();
+    expect(bench.socket.kinds().slice(-2)).toEqual(["edit", "undo"]);
+    expect(bench.edits()[0]).toMatchObject({ label: "Edit Stem", gesture: "typing 1", grammar: "ones" });
+    bench.socket.say(documentOf(2, "ones"));
+    await bench.answer("edit");
+    bench.socket.say(documentOf(3, "one"));
+    await bench.answer("undo");
+    expect(bench.studio.grammar.value).toBe("one");
+  });
+
+  test("what is typed while an undo is on its way wins", async () => {
+    const bench = await new Bench().open("one");
+    bench.studio.undo();
+    bench.studio.type("one!", "typing 1", null);
+    bench.socket.say(documentOf(2, "none"));
+    expect(bench.studio.grammar.value).toBe("one!");
+  });
+
+  test("without live search nothing is searched", async () => {
+    const bench = await new Bench().open();
+    bench.studio.setPreferences({ live: false });
+    bench.studio.edit({ label: "Move", scene: { seed: 1 }, search: true });
+    expect(bench.edits().at(-1)!.search).toBe(false);
+  });
+
+  test("the first curve of a scene brings the guided engine, later ones do not", async () => {
+    const bench = await new Bench().open();
+    bench.studio.edit({ label: "Draw", scene: { curves: { curve: [curve] } }, search: true });
+    expect(bench.studio.scene.value.search).toEqual({ engine: "guided" });
+    await bench.answer("edit");
+    bench.studio.edit({ label: "Draw", scene: { search: { engine: "ga" }, curves: { curve: [curve, curve] } }, search: true });
+    expect(bench.studio.scene.value.search).toEqual({ engine: "ga" });
+  });
+
+  test("deleting the last target takes its table out of the scene, and hidden ones move along", async () => {
+    const bench = await new Bench().open("g", { curves: { curve: [curve, curve, curve] } });
+    bench.studio.toggleHidden("curve", 2);
+    bench.studio.removeTarget("curve", 0);
+    expect(bench.studio.state.hidden.value.curves).toEqual([1]);
+    bench.studio.removeTarget("curve", 0);
+    bench.studio.removeTarget("curve", 0);
+    expect(bench.studio.scene.value).toEqual({});
+    expect(bench.studio.state.hidden.value.curves).toEqual([]);
+  });
+
+  test("a selection that undo took away is no selection", async () => {
+    const bench = await new Bench().open("g", { curves: { curve: [curve, curve] } });
+    bench.studio.select({ kind: "curve", index: 1 });
+    bench.socket.say(documentOf(2, "g", { curves: { curve: [curve] } }));
+    expect(bench.studio.state.selection.value).toBeNull();
+  });
+
+  test("new curves take the settings of the selected one, or of the last", async () => {
+    const bench = await new Bench().open("g", { curves: { curve: [{ ...curve, offset: 0.1 }, { ...curve, offset: 0.2 }] } });
+    expect(bench.studio.newCurve()).toEqual({ offset: 0.2 });
+    bench.studio.select({ kind: "curve", index: 0 });
+    expect(bench.studio.newCurve()).toEqual({ offset: 0.1 });
+  });
+});
+
+describe("genes", () => {
+  const gene = (model: number, number: number, path = "A/B") => ({
+    kind: "gene", model, gene: number, rule: "B", path, at: { from: 5, to: 9 }, below: 0, locked: false, draws: [],
+  });
+
+  test("a click asks for the gene, and its answer goes to the rule", async () => {
+    const bench = await new Bench().open();
+    bench.socket.say(shownOf(3));
+    bench.studio.select({ kind: "gene", gene: 4 });
+    expect(bench.socket.sent.at(-1)).toMatchObject({ kind: "ask_gene", gene: 4, model: 3 });
+    bench.socket.say(gene(3, 4));
+    expect(bench.studio.state.jump.value).toEqual({ at: { from: 5, to: 9 }, focus: false });
+  });
+
+  test("are asked for again in a new model, and stay selected if they are still the same", async () => {
+    const bench = await new Bench().open();
+    const stop = bench.studio.watch();
+    bench.socket.say(shownOf(3));
+    bench.studio.select({ kind: "gene", gene: 4 });
+    bench.socket.say(gene(3, 4));
+    bench.socket.say(shownOf(5));
+    expect(bench.socket.sent.at(-1)).toMatchObject({ kind: "ask_gene", gene: 4, model: 5 });
+    bench.socket.say(gene(5, 4));
+    expect(bench.studio.state.selection.value).toEqual({ kind: "gene", gene: 4 });
+    expect(bench.studio.state.gene.value!.model).toBe(5);
+    bench.socket.say(shownOf(6));
+    bench.socket.say(gene(6, 4, "A/C"));
+    expect(bench.studio.state.selection.value).toBeNull();
+    expect(bench.studio.state.gene.value!.path).toBe("A/B");
+    const count = bench.socket.sent.length;
+    bench.socket.say(shownOf(7));
+    expect(bench.socket.sent).toHaveLength(count);
+    bench.studio.select({ kind: "gene", gene: 8 });
+    bench.socket.say(gene(7, 8, "A/D"));
+    expect(bench.studio.state.gene.value!.path).toBe("A/D");
+    stop();
+  });
+
+  test("are asked for again when they were locked", async () => {
+    const bench = await new Bench().open();
+    bench.socket.say(shownOf(3));
+    bench.studio.select({ kind: "gene", gene: 4 });
+    bench.socket.say(gene(3, 4));
+    void bench.studio.setLock(true);
+    await bench.answer("set_lock");
+    expect(bench.socket.kinds().slice(-2)).toEqual(["set_lock", "ask_gene"]);
+  });
+
+  test("dragging a draw keeps one request on its way, each for the gene of the newest model", async () => {
+    const bench = await new Bench().open();
+    bench.socket.say(shownOf(3));
+    bench.socket.say(gene(3, 4));
+    for (let i = 1; i <= 9; ++i) bench.studio.setDraw(0, i / 10, "g");
+    const draws = () => bench.socket.sent.filter((one) => one.kind === "set_draw");
+    expect(draws()).toHaveLength(1);
+    bench.socket.say(shownOf(4));
+    bench.socket.say(gene(4, 6));
+    await bench.answer("set_draw");
+    expect(draws()).toHaveLength(2);
+    expect(draws()[1]).toMatchObject({ model: 4, gene: 6, quantile: 0.9, gesture: "g" });
+    await bench.answer("set_draw");
+    expect(draws()).toHaveLength(2);
+  });
+});
+
+describe("the reach of the rule under the cursor", () => {
+  test("is asked for when the cursor rests and when the grammar changed, not with errors", async () => {
+    const bench = await new Bench().open();
+    const stop = bench.studio.watch();
+    const symbol = { kind: "rule" as const, name: "Stem", signature: "rule Stem", at: { from: 0, to: 4 } };
+    bench.socket.say(checkedOf(1, { symbols: [symbol] }));
+    bench.studio.state.cursorRule.value = "Stem";
+    expect(bench.socket.kinds()).not.toContain("ask_reach");
+    bench.clock.advance(150);
+    const asked = () => bench.socket.sent.filter((one) => one.kind === "ask_reach").length;
+    expect(asked()).toBe(1);
+    bench.socket.say(checkedOf(2, { symbols: [symbol], problems: [{ severity: "error", code: "E0110", text: "no" }] }));
+    bench.clock.advance(150);
+    expect(asked()).toBe(1);
+    bench.socket.say(checkedOf(3, { symbols: [symbol] }));
+    bench.clock.advance(150);
+    expect(asked()).toBe(2);
+    bench.studio.setPreferences({ reach: false });
+    bench.socket.say(checkedOf(4, { symbols: [symbol] }));
+    bench.clock.advance(150);
+    expect(asked()).toBe(2);
+    stop();
+  });
+});
+
+describe("searching", () => {
+  test("starts with the time of the scene, from the shown model where something is locked", async () => {
+    const bench = await new Bench().open("g", { budget: { seconds: 0.5 } });
+    bench.studio.toggleSearch();
+    expect(bench.socket.sent.at(-1)).toMatchObject({ kind: "start_search", seconds: 0.5, from: "nothing" });
+    bench.socket.say(shownOf(1, { locked: [3] }));
+    bench.studio.startSearch("new");
+    expect(bench.socket.sent.at(-1)).toMatchObject({ from: "shown" });
+    bench.studio.startSearch("onward");
+    expect(bench.socket.sent.at(-1)).toMatchObject({ onward: true });
+    bench.socket.say({ kind: "search_state", running: true, engine: "ga", steps: 0, evaluations: 0, seconds: 0, rises: [], onward: false });
+    bench.studio.toggleSearch();
+    expect(bench.socket.sent.at(-1)).toMatchObject({ kind: "stop_search" });
+  });
+});
+
+describe("painting", () => {
+  test("uploads the picture and makes or changes the silhouette of its camera", async () => {
+    const bench = await new Bench().open();
+    const uploaded: string[] = [];
+    bench.studio.files.upload = (_project, name) => {
+      uploaded.push(name);
+      return Promise.resolve();
+    };
+    const camera: Camera = { eye: [0, 1, 5], at: [0, 1, 0], tall: 4 };
+    bench.studio.painted(new Blob(["x"]), camera);
+    await settle();
+    expect(uploaded).toEqual(["painted.png"]);
+    expect(bench.studio.scene.value.silhouette).toEqual([{ image: "painted.png", view: "parts", camera }]);
+    bench.socket.say({ ...documentOf(2, "g", bench.studio.scene.value), files: [{ path: "painted.png", bytes: 1 }] });
+    bench.studio.painted(new Blob(["y"]), { tall: 4, at: [0, 1, 0], eye: [0, 1.000001, 5] });
+    await settle();
+    expect(uploaded).toEqual(["painted.png", "painted-2.png"]);
+    expect(bench.studio.scene.value.silhouette).toEqual([{ image: "painted-2.png", view: "parts", camera }]);
+    expect(bench.studio.state.selection.value).toEqual({ kind: "silhouette", index: 0 });
+  });
+});
+
+describe("the log", () => {
+  test("keeps the newest lines", async () => {
+    const bench = await new Bench().open();
+    for (let i = 0; i < 700; ++i) bench.socket.say({ kind: "log", level: "info", text: `line ${i}` });
+    expect(bench.studio.state.log.value).toHaveLength(500);
+    expect(bench.studio.state.log.value.at(-1)!.text).toBe("line 699");
+  });
+
+  test("tells of messages that the page does not know", async () => {
+    const bench = await new Bench().open();
+    bench.socket.say({ kind: "weather" });
+    expect(bench.studio.state.log.value.at(-1)!.text).toContain("weather");
+  });
+});
