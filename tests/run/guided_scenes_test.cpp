@@ -106,5 +106,29 @@ TEST(GuidedScenes, AVolumeBesideCurvesIsKeptFree) {
   EXPECT_GT(bones_in_ball(grow("guided-avoid.toml", {"volume.mesh.0.fill=0"}, 20000)), 0);
 }
 
+/// What the silhouette of guided-crown.toml makes of a model that was grown with its weight as given: pixels.
+double crown_score(const std::string& weight) {
+  AssimpMeshSource source;
+  const std::string file = std::string(ESPALIER_SOURCE_DIR) + "/scenes/guided-crown.toml";
+  const auto asked = set_up(load_scene(file, {{"silhouette.0.weight=" + weight}, {}}), source);
+  const auto judge = set_up(load_scene(file, {{"silhouette.0.weight=1", "curves.weight=0"}, {}}), source);
+  const auto executor = make_serial_executor();
+  SceneScorer scorer(asked->graph(), asked->objective, *executor);
+  GuidedEngine engine({asked->grammar.graph, {}, &scorer, 1, 0}, asked->scene.search.guided);
+  do engine.step();
+  while (engine.evaluations() < 4000);
+  SceneScorer silhouette(judge->graph(), judge->objective, *executor);
+  const Derivation* const best = &engine.best().derivation;
+  double score = 0;
+  silhouette.score({&best, 1}, {&score, 1});
+  return score;
+}
+
+TEST(GuidedScenes, ASilhouetteBesideCurvesIsFilled) {
+  const double shaped = crown_score("25"), free = crown_score("0");
+  EXPECT_GT(shaped, 0);
+  EXPECT_GT(shaped, free + 50);
+}
+
 }  // namespace
 }  // namespace espalier
