@@ -46,6 +46,11 @@ void OutBox::push(OutMessage message) {
   changed_.notify_all();
 }
 
+void OutBox::forget_models() {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(waiting_, [](const OutMessage& message) { return message.kind != OutMessage::Kind::text; });
+}
+
 std::optional<OutMessage> OutBox::take() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return closed_ || !waiting_.empty(); });

@@ -35,6 +35,8 @@ class OutBox {
   void push_text(std::string text);
   void push_model(ModelPacket model);
   void push_cloud(Bytes cloud);
+  /// Models and clouds that wait are of a project that the page has left.
+  void forget_models();
 
   /// The next message, as soon as there is one; nothing once the box is closed.
   std::optional<OutMessage> take();

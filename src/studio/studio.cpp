@@ -137,7 +137,10 @@ void Studio::put(const WebSocketPtr& socket, const SessionPtr& session, std::opt
     if (sockets_.count(socket->number) == 0) return;  // closed meanwhile
     before = std::exchange(where_[socket->number], session);
   }
-  if (before && before != session) before->leave(socket);
+  if (before && before != session) {
+    before->leave(socket);
+    socket->out.forget_models();
+  }
   session->join(socket, number);
 }
 

@@ -200,7 +200,7 @@ class WebServer::Implementation {
   }
 
   static void write_all(mg_connection* connection, WebSocket& socket) {
-    std::uint32_t table = 0;  // that the page has
+    Bytes meshes;  // that the page has: projects count their tables each for itself
     const auto write = [&](const Bytes& bytes, int opcode) {
       return !bytes || mg_websocket_write(connection, opcode, bytes->data(), bytes->size()) > 0;
     };
@@ -208,8 +208,8 @@ class WebServer::Implementation {
       bool written = true;
       if (message->kind == OutMessage::Kind::model) {
         const ModelPacket& model = message->model;
-        if (model.table != table) written = write(model.meshes, MG_WEBSOCKET_OPCODE_BINARY);
-        table = model.table;
+        if (model.meshes != meshes) written = write(model.meshes, MG_WEBSOCKET_OPCODE_BINARY);
+        meshes = model.meshes;
         written = written && write(model.model, MG_WEBSOCKET_OPCODE_BINARY) && write(model.shown, MG_WEBSOCKET_OPCODE_TEXT);
       } else {
         const bool text = message->kind == OutMessage::Kind::text;

@@ -156,6 +156,19 @@ TEST_F(StudioTest, EverySampleIsReadAndShowsAModel) {
   }
 }
 
+// Projects count their mesh tables each for itself, so equal numbers say nothing.
+TEST_F(StudioTest, AnotherProjectBringsItsOwnMeshes) {
+  Page page = this->page();
+  ASSERT_EQ(page.ask("create_project", {{"name", "a"}, {"sample", "guided-tree"}}), "");
+  ASSERT_TRUE(page.wait_for_model());
+  const json rules = page.seen["shown"]["rules"];
+  const std::string tree = page.meshes;
+  ASSERT_EQ(page.ask("create_project", {{"name", "b"}, {"sample", "spaceship"}}), "");
+  ASSERT_TRUE(page.wait_for("shown", [&](const json& shown) { return shown["rules"] != rules; }));
+  EXPECT_TRUE(page.meshes != tree);
+  EXPECT_EQ(word_at(page.model, 28), word_at(page.meshes, 8));
+}
+
 TEST_F(StudioTest, ErrorsOfTheGrammarHavePlacesAsThePageCounts) {
   Page page = this->page();
   page.ask("create_project", {{"name", "a"}});

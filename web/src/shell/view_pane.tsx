@@ -38,6 +38,7 @@ export function ViewPane() {
 function follow(studio: Studio, view: StudioView): (() => void)[] {
   const { state } = studio;
   const project = computed(() => studio.document.value?.project.id);
+  let framed: number | undefined;
   const rules = stable(() => state.shown.value?.rules ?? []);
   const highlight = stable<Highlight>(() => {
     const rule = state.cursorRule.value;
@@ -54,7 +55,11 @@ function follow(studio: Studio, view: StudioView): (() => void)[] {
       if (state.meshes.value !== null) view.setMeshes(state.meshes.value);
     }),
     effect(() => {
-      if (state.model.value !== null) view.setModel(state.model.value);
+      if (state.model.value === null) return;
+      view.setModel(state.model.value);
+      // Another project is seen from afar first.
+      if (framed !== project.peek()) view.frame();
+      framed = project.peek();
     }),
     effect(() => view.setRules(rules.value)),
     effect(() => view.setCloud(state.cloud.value)),
