@@ -48,12 +48,14 @@ export function grammarOf(page: Page): Promise<string> {
   return page.locator(".cm-content").evaluate((content) => (content as unknown as { cmTile: { view: { state: { doc: { toString(): string } } } } }).cmTile.view.state.doc.toString());
 }
 
-/** Puts the cursor behind a text of the grammar. */
+/** Puts the cursor behind a text of the grammar, as soon as the editor has it. */
 export async function cursorAfter(page: Page, text: string): Promise<void> {
   await page.locator(".cm-content").focus();
-  await page.locator(".cm-content").evaluate((content, needle) => {
+  await page.locator(".cm-content").evaluate(async (content, needle) => {
     const { view } = (content as unknown as { cmTile: { view: { state: { doc: { toString(): string } }; dispatch(change: object): void } } }).cmTile;
-    const at = view.state.doc.toString().indexOf(needle);
+    const find = () => view.state.doc.toString().indexOf(needle);
+    for (let tries = 0; find() < 0 && tries < 200; ++tries) await new Promise((done) => setTimeout(done, 50));
+    const at = find();
     if (at < 0) throw new Error(`the grammar has no ${needle}`);
     view.dispatch({ selection: { anchor: at + needle.length }, scrollIntoView: true });
   }, text);
