@@ -19,7 +19,8 @@ export const kPolicy =
 export class MockServer {
   readonly token = "mock";
   readonly received: Request[] = [];
-  projects: MockProject[] = [new MockProject(1, "Bonsai", TREE, TREE_SCENE), new MockProject(2, "Box", EMPTY, {})];
+  /** The page opens the newest: always the first. */
+  projects: MockProject[] = [new MockProject(1, "Bonsai", TREE, TREE_SCENE), Object.assign(new MockProject(2, "Box", EMPTY, {}), { changed: Date.now() / 1000 - 60 })];
   private sockets = new Map<MockSocket, number | null>();
   private server = createServer((request, response) => this.http(request, response));
   private port = 0;
