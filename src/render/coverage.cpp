@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/box_corner.h"
+
 namespace espalier {
 namespace {
 
@@ -27,8 +29,7 @@ void Coverage::add(const Placed& part) {
   Vec2 low(1e30f), high(-1e30f);
   bool near = false;
   for (int k = 0; k < 8; ++k) {
-    const Vec3 corner(k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z);
-    const Vec3 p = camera_.picture_point(part.world_from_shape.point(corner));
+    const Vec3 p = camera_.picture_point(part.world_from_shape.point(corner_of(box, k)));
     near |= !(p.z > kNearest);
     low = Vec2(std::min(low.x, p.x), std::min(low.y, p.y));
     high = Vec2(std::max(high.x, p.x), std::max(high.y, p.y));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box_corner.h"
+
 namespace espalier {
 
 GroundShade::GroundShade(const Stage& stage, const Tracer& tracer) : marked_(std::size_t{kSide} * kSide) {
@@ -18,8 +20,7 @@ void GroundShade::add(const Stage& stage, const Placed& part) {
   const Bounds box = part.shape->box();
   Vec2 low(1e30f), high(-1e30f);
   for (int k = 0; k < 8; ++k) {
-    const Vec3 corner(k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z);
-    const Vec3 p = part.world_from_shape.point(corner);
+    const Vec3 p = part.world_from_shape.point(corner_of(box, k));
     const float height = std::max(p.y - stage.ground_y, 0.0f), radius = 1.01f * aside * height;
     const Vec2 foot = Vec2(p.x, p.z) - (height / key.y) * level;
     low = Vec2(std::min(low.x, foot.x - radius), std::min(low.y, foot.y - radius));

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "base/box_corner.h"
 #include "base/hash.h"
 #include "model/uv.h"
 #include "render/crease.h"
@@ -130,9 +131,7 @@ class SetBuilder {
   static std::vector<Vec3> box_corners(const Bounds& b) {
     if (b.empty()) return {};
     std::vector<Vec3> out;
-    for (int k = 0; k < 8; ++k) {
-      out.emplace_back(k & 1 ? b.max.x : b.min.x, k & 2 ? b.max.y : b.min.y, k & 4 ? b.max.z : b.min.z);
-    }
+    for (int k = 0; k < 8; ++k) out.push_back(corner_of(b, k));
     return out;
   }
 

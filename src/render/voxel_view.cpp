@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/box_corner.h"
+
 namespace espalier {
 namespace {
 
@@ -15,10 +17,6 @@ constexpr int kNormalReach = 2;           // voxels around one that tell its nor
 constexpr float kEdgeDepth = 0.02f;       // of the longest side: a step in depth that is drawn as an edge
 const Vec3 kToViewer(0.5213f, 0.4226f, 0.7413f);  // 35 degrees aside, 25 up
 const Vec3 kToLight(-0.30f, 0.85f, 0.43f);
-
-Vec3 corner_of(const Bounds& box, int k) {
-  return {k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z};
-}
 
 struct Seen {
   Vec3 colour{0};  // 0..255, multiplied by what covers

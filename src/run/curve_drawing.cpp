@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/box_corner.h"
 #include "base/math.h"
 #include "model/parts.h"
 #include "model/primitives.h"
@@ -23,9 +24,7 @@ constexpr float kGlow = 0.3f;
 constexpr std::uint32_t kLeastPieces = 96, kMostPieces = 2048;  // of a curve
 
 void add_corners(const Bounds& box, const Frame& frame, std::vector<Vec3>& out) {
-  for (int k = 0; k < 8; ++k)
-    out.push_back(frame.point(
-        {k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z}));
+  for (int k = 0; k < 8; ++k) out.push_back(frame.point(corner_of(box, k)));
 }
 
 std::vector<Colour> all_inks() {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/box_corner.h"
 #include "base/counted.h"
 #include "render/camera.h"
 #include "render/font.h"
@@ -85,17 +86,14 @@ Picture meshes_in_grid(const Setup& setup, Executor& executor) {
   RenderSettings look = small_look(setup);
   Bounds all{grid.min, grid.max};
   for (const Mesh& mesh : setup.targets) all.add(bounds(mesh));
-  const auto corner = [](const Vec3& low, const Vec3& high, int k) {
-    return Vec3(k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z);
-  };
   std::vector<Vec3> points;
-  for (int k = 0; k < 8; ++k) points.push_back(corner(all.min, all.max, k));
+  for (int k = 0; k < 8; ++k) points.push_back(corner_of(all, k));
   const Camera camera =
       frame_points(points, look.azimuth_deg, look.elevation_deg, look.width, look.height, 0.04f);
   look.place = place_of(camera);
   Picture picture = render(Model(), setup.meshes, setup.graph().materials, setup.targets, look, executor);
   const auto pixel = [&](int k, int axis) {
-    const Vec3 p = camera.picture_point(corner(grid.min, grid.max, k));
+    const Vec3 p = camera.picture_point(corner_of({grid.min, grid.max}, k));
     return static_cast<std::int64_t>(axis == 0 ? 0.5f * (1 + p.x) * static_cast<float>(look.width)
                                                : 0.5f * (1 - p.y) * static_cast<float>(look.height));
   };

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/base64.h"
 #include "base/version.h"
 #include "run/report_assets.h"
 #include "run/report_diagnostics.h"
@@ -127,7 +128,7 @@ std::string report_page(const ReportInput& input) {
                         {"settings", escape_html(input.provenance.settings)},
                         {"provenance", provenance_html(input)},
                         {"data", data_json(input)},
-                        {"model", base64(input.model.bytes)}});
+                        {"model", encode_base64(input.model.bytes)}});
 }
 
 }  // namespace espalier

@@ -18,8 +18,6 @@ std::string json_for_script(std::string json);
 /// Percent-encodes all but letters, digits and "-._~": one component of a relative URL.
 std::string url_component(std::string_view text);
 
-std::string base64(std::string_view bytes);
-
 /// "data:image/png;base64,...".
 std::string png_url(std::string_view png);
 

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/box_corner.h"
 #include "base/math.h"
 #include "render/paint.h"
 #include "run/scene_silhouettes.h"
@@ -145,9 +146,7 @@ Picture shadow_view(const Setup& setup, std::size_t index, const Model& model, c
   const Bounds box = bounds(model, setup.meshes, true);
   std::vector<Vec3> points;
   for (int k = 0; k < 4; ++k) points.push_back(plane.corner(k));
-  for (int k = 0; k < 8 && !box.empty(); ++k) {
-    points.emplace_back(k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z);
-  }
+  for (int k = 0; k < 8 && !box.empty(); ++k) points.push_back(corner_of(box, k));
   const auto size = snug(shadow_camera(plane, points, look), points, look);
   const auto larger = fitted(size, {look.width, look.height});
   look.width = larger[0], look.height = larger[1];

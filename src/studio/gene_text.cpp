@@ -6,29 +6,17 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/math.h"
 #include "derivation/locks.h"
 #include "derivation/position.h"
 #include "grammar/outline.h"
 #include "model/draw_values.h"
+#include "render/gene_text.h"
 #include "studio/grammar_check.h"
 
 namespace espalier::studio {
 namespace {
 
-/// As the language writes it: three digits and the unit.
-std::string value_text(const DrawOutline* draw, std::optional<float> value, std::uint32_t quantile) {
-  if (!value) return fmt::format("u {:.3g}", quantile * 0x1p-32);
-  const double number = *value + 0.0;
-  if (!draw) return fmt::format("{:.3g}", number);
-  if (draw->distribution == "chance") return number == 0 ? "true" : "false";
-  if (draw->distribution == "pick") {
-    const auto index = static_cast<std::size_t>(number);
-    return index < draw->alternatives.size() ? draw->alternatives[index] : fmt::format("#{}", index + 1);
-  }
-  if (draw->kind == Kind::angle) return fmt::format("{:.3g}deg", number * (180 / kPi));
-  return fmt::format("{:.3g}", number);
-}
+constexpr const char* kDegrees = "deg";  // as the language writes them
 
 GenePosition position_of(const ShownModel& shown, std::int64_t gene) {
   if (gene < 0 || gene >= static_cast<std::int64_t>(shown.derivation.size())) {
@@ -39,11 +27,11 @@ GenePosition position_of(const ShownModel& shown, std::int64_t gene) {
   return path.gene;
 }
 
-bool is_below(const std::string& path, const std::string& lock) {
-  return path == lock || (path.starts_with(lock) && path[lock.size()] == '/');
-}
-
 }  // namespace
+
+bool stands_on(const std::string& path, const std::string& other) {
+  return path == other || (path.starts_with(other) && path[other.size()] == '/');
+}
 
 std::string path_of(const ShownModel& shown, std::int64_t gene) {
   const GenePosition at = position_of(shown, gene);
@@ -65,7 +53,7 @@ api::Gene gene_text(const ShownModel& shown, std::int64_t gene) {
   text.path = path_of(shown, gene);
   text.below = record.genes_below;
   text.locked = std::any_of(shown.locks.begin(), shown.locks.end(),
-                            [&](const std::string& lock) { return is_below(text.path, lock); });
+                            [&](const std::string& lock) { return stands_on(text.path, lock); });
   if (rule.span.file == 0 && rule.span.line > 0) text.at = Utf16Offsets(grammar.sources[0].text).place(rule.span);
 
   const GrammarOutline outline = outline_of(*grammar.checked, grammar.sources);
@@ -85,9 +73,9 @@ api::Gene gene_text(const ShownModel& shown, std::int64_t gene) {
     row.name = component.name.substr(component.name.find('.') + 1);
     row.index = static_cast<std::int64_t>(k);
     row.quantile = quantile * 0x1p-32;
-    row.value = value_text(draw, values[i], quantile);
-    if (low[i]) row.low = value_text(draw, low[i], 0);
-    if (high[i]) row.high = value_text(draw, high[i], 0xffffffff);
+    row.value = draw_text(draw, values[i], quantile, kDegrees);
+    if (low[i]) row.low = draw_text(draw, low[i], 0, kDegrees);
+    if (high[i]) row.high = draw_text(draw, high[i], 0xffffffff, kDegrees);
     text.draws.push_back(std::move(row));
   }
   return text;

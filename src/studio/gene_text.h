@@ -13,5 +13,7 @@ api::Gene gene_text(const ShownModel& shown, std::int64_t gene);
 Derivation with_draw(const ShownModel& shown, std::int64_t gene, std::int64_t index, double quantile);
 /// "Trunk/Branch[2]". Throws Error.
 std::string path_of(const ShownModel& shown, std::int64_t gene);
+/// Whether the gene with one path is that with the other, or somewhere above it on the same branch.
+bool stands_on(const std::string& path, const std::string& other);
 
 }  // namespace espalier::studio

@@ -4,33 +4,13 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "grammar/one_line.h"
 #include "grammar/parser.h"
 
 namespace espalier::studio {
 namespace {
 
 constexpr std::size_t kLongestSignature = 200;
-
-/// In one line, without comments.
-std::string in_one_line(std::string_view text) {
-  std::string words;
-  bool comment = false, gap = false, quoted = false;
-  for (const char c : text) {
-    if (c == '\n') comment = quoted = false;
-    if (comment) continue;
-    if (c == '"') quoted = !quoted;
-    if (c == '#' && !quoted) {
-      comment = gap = true;
-    } else if (!quoted && (c == ' ' || c == '\t' || c == '\n' || c == '\r')) {
-      gap = true;
-    } else {
-      if (gap && !words.empty()) words += ' ';
-      gap = false;
-      words += c;
-    }
-  }
-  return words;
-}
 
 /// Not within a character.
 std::string shortened(std::string text) {

@@ -25,8 +25,4 @@ std::string project_file(const WholeProject& project);
 /// Throws Error naming what is wrong: not such a file, another version, paths that lead elsewhere, files that are damaged.
 WholeProject parse_project_file(std::string_view text);
 
-std::string encode_base64(std::string_view bytes);
-/// Throws Error for anything but whole base64 with its padding.
-std::string decode_base64(std::string_view text);
-
 }  // namespace espalier::studio

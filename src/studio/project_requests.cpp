@@ -119,12 +119,9 @@ void ProjectSession::act(const WebSocketPtr&, const api::SetDraw& set) {
 void ProjectSession::act(const WebSocketPtr&, const api::SetLock& set) {
   const ShownModelPtr model = find_model(set.model);
   const std::string path = path_of(*model, set.gene);
-  const auto within = [](const std::string& one, const std::string& other) {
-    return one == other || (one.starts_with(other) && one[other.size()] == '/');
-  };
   std::vector<std::string> locks = locks_of(now_.state.scene);
   // A lock holds all below; what frees a gene frees those above it too.
-  std::erase_if(locks, [&](const std::string& lock) { return set.locked ? within(lock, path) : within(path, lock); });
+  std::erase_if(locks, [&](const std::string& lock) { return set.locked ? stands_on(lock, path) : stands_on(path, lock); });
   if (set.locked) locks.push_back(path);
   StoredState next = now_.state;
   next.scene = with_locks(next.scene, locks);

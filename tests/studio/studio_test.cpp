@@ -1,4 +1,5 @@
 // The studio over a real socket, as a page sees it.
+#include "base/base64.h"
 #include "studio/studio.h"
 
 #include <cstdlib>
