@@ -446,7 +446,9 @@ TEST_F(StudioTest, ExportsAreRunAndReproduced) {
   ASSERT_TRUE(page.wait_for("search_state", [](const json& state) { return state["steps"] > 0 && !state["running"]; }));
   const std::string base = "/projects/" + page.seen["document"]["project"]["id"].dump() + "/export/";
   EXPECT_EQ(http("GET " + base + "glb").body.substr(0, 4), "glTF");
-  EXPECT_EQ(http("GET " + base + "png").body.substr(1, 3), "PNG");
+  const Answer png = http("GET " + base + "png");
+  ASSERT_EQ(png.status, 200) << png.head;
+  EXPECT_EQ(png.body.substr(1, 3), "PNG");
   EXPECT_EQ(http("GET " + base + "ply").body.substr(0, 3), "ply");
   EXPECT_GT(http("GET " + base + "stl").body.size(), 84u);
   EXPECT_EQ(http("GET " + base + "obj").body.substr(0, 4), "PK\x03\x04");

@@ -18,6 +18,9 @@
 
 namespace espalier::studio {
 
+/// For an answer, in milliseconds: pictures take half a minute under ThreadSanitizer.
+inline constexpr int kPatience = 120'000;
+
 class Connection {
  public:
   explicit Connection(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -46,7 +49,7 @@ class Connection {
     return true;
   }
   /// Exactly so many bytes; nothing where the other side ends, or says nothing for so long.
-  std::optional<std::string> read(std::size_t bytes, int milliseconds = 20'000) {
+  std::optional<std::string> read(std::size_t bytes, int milliseconds = kPatience) {
     while (buffer_.size() < bytes) {
       if (!fill(milliseconds)) return std::nullopt;
     }
@@ -56,12 +59,12 @@ class Connection {
   }
   std::optional<std::string> read_until(const std::string& mark) {
     while (buffer_.find(mark) == std::string::npos) {
-      if (!fill(20'000)) return std::nullopt;
+      if (!fill(kPatience)) return std::nullopt;
     }
     return read(buffer_.find(mark) + mark.size());
   }
   /// Whether the other side ended within so long, whatever it said before.
-  bool ends(int milliseconds = 20'000) {
+  bool ends(int milliseconds = kPatience) {
     while (fill(milliseconds)) {}
     return ended_;
   }
@@ -141,7 +144,7 @@ class WebSocketClient {
   }
 
   /// The next message, control frames left out; nothing where the connection ends or stays silent.
-  std::optional<Message> read(int milliseconds = 20'000) {
+  std::optional<Message> read(int milliseconds = kPatience) {
     for (;;) {
       const auto head = connection_.read(2, milliseconds);
       if (!head) return std::nullopt;
@@ -159,7 +162,7 @@ class WebSocketClient {
       if (opcode == 1 || opcode == 2) return Message{opcode == 2, std::move(*bytes)};
     }
   }
-  bool ends(int milliseconds = 20'000) { return connection_.ends(milliseconds); }
+  bool ends(int milliseconds = kPatience) { return connection_.ends(milliseconds); }
   void hang_up() { connection_.hang_up(); }
 
  private:
