@@ -17,6 +17,11 @@ export class Files {
     return this.address(`projects/${project}/favourites/${favourite}`);
   }
 
+  /** Of a path that the server named. */
+  sampleUrl(path: string): string {
+    return this.address(path);
+  }
+
   exportUrl(project: number, format: ExportFormat): string {
     return this.address(`projects/${project}/export/${format}`);
   }
