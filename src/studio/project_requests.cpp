@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/base64.h"
 #include "base/error.h"
 #include "derivation/encode.h"
 #include "grammar/formatter.h"
@@ -131,7 +132,7 @@ void ProjectSession::act(const WebSocketPtr&, const api::SetLock& set) {
 }
 
 void ProjectSession::act(const WebSocketPtr& socket, const api::AskReach& ask) {
-  reach_asked_[socket->number] = {socket, ask.rule};
+  reach_.ask(socket, ask.rule);
 }
 
 void ProjectSession::act(const WebSocketPtr&, const api::Format&) {
@@ -144,11 +145,11 @@ void ProjectSession::act(const WebSocketPtr&, const api::Format&) {
   change(next, {.label = "Format"}, LiveStart::keep);
 }
 
-void ProjectSession::act(const WebSocketPtr&, const api::KeepFavourite&) {
-  const ShownModelPtr model = shown();
+void ProjectSession::act(const WebSocketPtr&, const api::KeepFavourite& keep) {
+  const ShownModelPtr model = keep.model ? find_model(*keep.model) : shown();
   if (!model) throw Error("no model is shown");
   StoredFavourite favourite{0, model->score.value_or(0), static_cast<std::int64_t>(model->derivation.size()), model->words,
-                            model->encoded};
+                            model->encoded, decode_base64(keep.picture.value_or(""))};
   favourite.id = store_.add_favourite(project_, favourite);
   favourites_.push_back(std::move(favourite));
   send_document();

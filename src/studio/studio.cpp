@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "studio/export_model.h"
+#include "studio/picture_type.h"
 #include "studio/project_file.h"
 #include "studio/shipped.h"
 #include "studio/web_guard.h"
@@ -105,11 +106,16 @@ void Studio::send_projects(const WebSocketPtr* only) {
   for (const auto& [number, socket] : sockets_) socket->out.push_text(text);
 }
 
+/// The session of an open project, or the end. Under the lock.
+std::vector<Studio::SessionPtr>::iterator Studio::find_open(std::int64_t project) {
+  return std::find_if(sessions_.begin(), sessions_.end(),
+                      [&](const SessionPtr& one) { return one->project() == project; });
+}
+
 Studio::SessionPtr Studio::session(std::int64_t project) {
   SessionPtr leaving;  // ends after the lock is given back
   const std::lock_guard lock(mutex_);
-  const auto found = std::find_if(sessions_.begin(), sessions_.end(),
-                                  [&](const SessionPtr& one) { return one->project() == project; });
+  const auto found = find_open(project);
   if (found != sessions_.end()) {
     std::rotate(found, found + 1, sessions_.end());
     return sessions_.back();
@@ -145,8 +151,7 @@ void Studio::put(const WebSocketPtr& socket, const SessionPtr& session, std::opt
 }
 
 std::int64_t Studio::require_created(const api::CreateProject& create) {
-  const NewProject content = create.sample ? make_sample(*create.sample) : make_empty_project();
-  return store_.create(create.name, content.state, content.blobs);
+  return add(create.name, create.sample ? make_sample(*create.sample) : make_empty_project());
 }
 
 /// Whether the request was one of the list's; then it is done.
@@ -171,9 +176,7 @@ bool Studio::handle(const WebSocketPtr& socket, const api::Request& request, std
     SessionPtr open;
     {
       const std::lock_guard lock(mutex_);
-      for (const SessionPtr& one : sessions_) {
-        if (one->project() == rename->project) open = one;
-      }
+      if (const auto found = find_open(rename->project); found != sessions_.end()) open = *found;
     }
     if (open) open->renamed();
     send_projects();
@@ -189,9 +192,7 @@ bool Studio::handle(const WebSocketPtr& socket, const api::Request& request, std
     SessionPtr open;
     {
       const std::lock_guard lock(mutex_);
-      const auto found = std::find_if(sessions_.begin(), sessions_.end(),
-                                      [&](const SessionPtr& one) { return one->project() == remove->project; });
-      if (found != sessions_.end()) {
+      if (const auto found = find_open(remove->project); found != sessions_.end()) {
         open = std::move(*found);
         sessions_.erase(found);
         std::erase_if(where_, [&](const auto& place) { return place.second == open; });
@@ -217,7 +218,12 @@ void Studio::received(const WebSocketPtr& socket, std::string text) {
 }
 
 HttpResponse Studio::answer(const HttpRequest& request) {
-  constexpr std::string_view kProjects = "/projects/";
+  constexpr std::string_view kProjects = "/projects/", kSamples = "/samples/";
+  if (request.path.starts_with(kSamples) && request.method == "GET") {
+    const auto picture = sample_picture(request.path.substr(kSamples.size()));
+    if (!picture) return not_found();
+    return {200, std::string(picture_type(*picture)), std::string(*picture)};
+  }
   if (!request.path.starts_with(kProjects)) return not_found();
   std::string rest = request.path.substr(kProjects.size());
   if (rest == "import") {
@@ -232,10 +238,17 @@ HttpResponse Studio::answer(const HttpRequest& request) {
 }
 
 HttpResponse Studio::answer_project(std::int64_t project, const HttpRequest& request, const std::string& rest) {
-  constexpr std::string_view kFiles = "files/", kExport = "export/";
+  constexpr std::string_view kFiles = "files/", kExport = "export/", kFavourites = "favourites/", kPreviews = "previews/";
   if (rest.starts_with(kExport) && request.method == "GET") {
     const Turn turn(busy_);
     return export_project(project, rest.substr(kExport.size()));
+  }
+  if (rest.starts_with(kPreviews) && request.method == "GET") return preview(project, rest.substr(kPreviews.size()));
+  if (rest.starts_with(kFavourites) && request.method == "GET") {
+    std::string number = rest.substr(kFavourites.size()) + "/";
+    std::string picture = store_.favourite_picture(project, take_number(number));
+    if (picture.empty()) return not_found();
+    return {200, std::string(picture_type(picture)), std::move(picture)};
   }
   if (!rest.starts_with(kFiles)) return not_found();
   const std::string path = rest.substr(kFiles.size());
@@ -248,6 +261,15 @@ HttpResponse Studio::answer_project(std::int64_t project, const HttpRequest& req
   }
   for (const StoredFile& file : store_.open(project).state.files) {
     if (file.path == path) return {200, std::string(image_type(path)), store_.blob(project, file.hash)};
+  }
+  return not_found();
+}
+
+HttpResponse Studio::preview(std::int64_t project, const std::string& path) {
+  for (const StoredFile& file : store_.open(project).state.files) {
+    if (file.path != path) continue;
+    std::string png = previews_.png(file, [&](const std::string& hash) { return store_.blob(project, hash); });
+    if (!png.empty()) return {200, "image/png", std::move(png)};
   }
   return not_found();
 }
@@ -277,7 +299,10 @@ std::int64_t Studio::find_or_create(const std::string& name) {
   for (const StoredProject& project : store_.projects()) {
     if (project.name == name) return project.id;
   }
-  const NewProject content = make_empty_project();
+  return add(name, make_empty_project());
+}
+
+std::int64_t Studio::add(const std::string& name, const NewProject& content) {
   return store_.create(name, content.state, content.blobs);
 }
 

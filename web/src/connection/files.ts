@@ -13,6 +13,15 @@ export class Files {
     return this.address(`projects/${project}/files/${path.split("/").map(encodeURIComponent).join("/")}`);
   }
 
+  favouriteUrl(project: number, favourite: number): string {
+    return this.address(`projects/${project}/favourites/${favourite}`);
+  }
+
+  /** Of a path that the server named. */
+  sampleUrl(path: string): string {
+    return this.address(path);
+  }
+
   exportUrl(project: number, format: ExportFormat): string {
     return this.address(`projects/${project}/export/${format}`);
   }

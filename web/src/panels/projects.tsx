@@ -14,10 +14,10 @@ export function ProjectsDialog() {
     state.dialog.value = null;
   };
   const [name, setName] = useState("");
-  const create = (sample?: string, title?: string) => void studio.createProject(name.trim() || title || "Untitled", sample);
+  const create = (sample?: string, title?: string) => void studio.projects.create(name.trim() || title || "Untitled", sample);
   const importFile = async () => {
     const file = await pickFile(".espalier");
-    if (file !== null) await studio.importProject(file);
+    if (file !== null) await studio.projects.import(file);
   };
   return (
     <Dialog title="Projects" kind="projects" onClose={close}>
@@ -38,12 +38,20 @@ export function ProjectsDialog() {
           </div>
           <ul class="samples">
             <li>
-              <button type="button" onClick={() => create()}><b>Empty</b><span>A grammar of one box.</span></button>
+              <button type="button" onClick={() => create()}>
+                <span class="sample-picture"><Icon name="plus" /></span>
+                <b>Empty</b>
+                <span>A grammar of one stem.</span>
+              </button>
             </li>
             {state.samples.value.map((sample) => (
               <li key={sample.name}>
                 <button type="button" onClick={() => create(sample.name, sample.title)}>
-                  {sample.picture !== undefined && <img src={sample.picture} alt="" loading="lazy" />}
+                  <span class="sample-picture">
+                    {sample.picture === undefined
+                      ? <Icon name="parts" />
+                      : <img src={studio.files.sampleUrl(sample.picture)} alt="" width={192} height={144} loading="lazy" />}
+                  </span>
                   <b>{sample.title}</b>
                   <span>{sample.words}</span>
                 </button>
@@ -70,7 +78,7 @@ function ProjectRow({ project, onOpened }: { project: ProjectInfo; onOpened(): v
   const [name, setName] = useState(project.name);
   const open = studio.document.value?.project.id === project.id;
   const openIt = async () => {
-    if (await studio.openProject(project.id)) onOpened();
+    if (await studio.projects.open(project.id)) onOpened();
   };
   if (mode === "rename") {
     const rename = () => {
@@ -111,7 +119,7 @@ function ProjectRow({ project, onOpened }: { project: ProjectInfo; onOpened(): v
         <span class="dim">{agoWords(Date.now() / 1000 - project.changed)}</span>
       </button>
       <button type="button" class="text-button" onClick={() => setMode("rename")} aria-label={`Rename ${project.name}`}>Rename</button>
-      <IconButton label={`Duplicate ${project.name}`} onClick={() => void studio.duplicateProject(project.id)}><Icon name="copy" /></IconButton>
+      <IconButton label={`Duplicate ${project.name}`} onClick={() => void studio.projects.duplicate(project.id)}><Icon name="copy" /></IconButton>
       <IconButton label={`Delete ${project.name}`} onClick={() => setMode("delete")}><Icon name="trash" /></IconButton>
     </li>
   );
