@@ -75,8 +75,7 @@ class Twins {
 
 class SetBuilder {
  public:
-  SetBuilder(const Model& model, const MeshTable& table, const std::vector<Mesh>& ghosts, bool full)
-      : parts_(collect_parts(model, table, full)) {
+  SetBuilder(Parts parts, const std::vector<Mesh>& ghosts) : parts_(std::move(parts)) {
     for (const Mesh& ghost : ghosts) ghosts_.push_back(with_crease_normals(ghost));
     measure();
   }
@@ -216,8 +215,10 @@ class SetBuilder {
 }  // namespace
 
 Set build_set(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
-              const std::vector<Mesh>& ghosts, bool full) {
-  return SetBuilder(model, meshes, ghosts, full).build(surfaces);
+              const std::vector<Mesh>& ghosts, bool full, const std::optional<LevelOfDetail>& detail) {
+  const std::vector<Material>& materials = surfaces.materials();
+  Parts parts = detail ? parts_at(model, meshes, materials, *detail, full) : collect_parts(model, meshes, full, materials);
+  return SetBuilder(std::move(parts), ghosts).build(surfaces);
 }
 
 }  // namespace espalier
