@@ -24,6 +24,7 @@ constexpr std::uint32_t kLeastSides[LevelOfDetail::kCount] = {4, 3, 3, 3}, kMost
 constexpr float kStraighter[LevelOfDetail::kCount] = {0, 0.25f, 0.6f, 1.2f};  // radii that tubes may stray
 constexpr float kLargestGrowth = 3;  // of leaves that stand for others
 constexpr std::uint32_t kCollarLevels = 2;  // levels that have collars
+constexpr std::uint32_t kCollarSides = 6;   // limbs that have: one on a twig is not seen
 constexpr LeafOutline kOutlines[LevelOfDetail::kCount] = {LeafOutline::fine, LeafOutline::plain, LeafOutline::coarse,
                                                           LeafOutline::coarse};
 
@@ -150,8 +151,9 @@ class Leveller {
     return std::clamp(static_cast<std::uint32_t>(std::min(sides, 1000.0f) + 0.5f), kLeastSides[level], kMostSides);
   }
 
-  static std::vector<LimbJoint> joints_of(const Limb& limb, std::uint32_t level) {
-    const std::vector<LimbJoint> joints = level < kCollarLevels ? with_collar(limb) : limb.joints;
+  std::vector<LimbJoint> joints_of(const Limb& limb, std::uint32_t level) const {
+    const bool collar = level < kCollarLevels && sides_of(limb.joints[0].radius, 0) >= kCollarSides;
+    const std::vector<LimbJoint> joints = collar ? with_collar(limb) : limb.joints;
     return kStraighter[level] > 0 ? without_straight_joints(joints, kStraighter[level]) : joints;
   }
 
