@@ -115,6 +115,9 @@ struct ReproduceOptions {
 struct ExportVerbOptions {
   std::string derivation, grammar, out;
   std::vector<std::string> attributes;
+  std::string joints;                 // "separate", "smooth"; empty: not given
+  std::optional<std::uint32_t> lod;
+  bool lods = false;                  // all levels, a file each
 };
 
 struct RenderOptions {
@@ -127,6 +130,8 @@ struct RenderOptions {
   std::optional<std::uint32_t> turntable;
   bool no_ground = false, transparent = false, targets = false;
   std::string background, view = "full", light;
+  std::string joints;                 // "separate", "smooth"; empty: not given
+  std::optional<std::uint32_t> lod;
   int threads = 0;
 };
 

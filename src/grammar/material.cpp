@@ -9,7 +9,7 @@ namespace espalier {
 bool Material::looks_like(const Material& o) const {
   return color == o.color && roughness == o.roughness && metal == o.metal && opacity == o.opacity && glow == o.glow &&
          cutout == o.cutout && two_sided == o.two_sided && tiles == o.tiles && tiles_up == o.tiles_up &&
-         texture == o.texture;
+         metres == o.metres && texture == o.texture;
 }
 
 Material blend(const Material& a, const Material& b, float t) {
@@ -25,6 +25,7 @@ Material blend(const Material& a, const Material& b, float t) {
   out.cutout = between(a.cutout, b.cutout);
   out.tiles = between(a.tiles, b.tiles);
   out.tiles_up = between(a.repeats().y, b.repeats().y);
+  if (a.metres > 0 && b.metres > 0) out.metres = between(a.metres, b.metres);
   if (a.texture.kind != b.texture.kind || a.texture.kind == TextureKind::image) return out;
   for (std::size_t i = 0; i < out.texture.colors.size(); ++i)
     out.texture.colors[i] = a.texture.colors[i] + (b.texture.colors[i] - a.texture.colors[i]) * t;
@@ -42,6 +43,7 @@ void set_field(Material& material, MaterialField field, float value) {
     case MaterialField::cutout: material.cutout = value; return;
     case MaterialField::tiles: material.tiles = value; return;
     case MaterialField::tiles_up: material.tiles_up = value; return;
+    case MaterialField::metres: material.metres = value; return;
     case MaterialField::texture: break;
   }
   const std::size_t number = static_cast<std::size_t>(field) - static_cast<std::size_t>(MaterialField::texture);

@@ -43,6 +43,7 @@ struct Material {
   bool two_sided = false;   // seen from behind too
   float tiles = 1;          // times that the texture repeats across
   float tiles_up = 0;       // and upwards; 0: as across
+  float metres = 0;         // of the surface that `tiles` stand on; 0: the whole part, whatever its size
   TextureRef texture = {};
 
   bool textured() const { return texture.kind != TextureKind::none; }
@@ -56,7 +57,7 @@ struct Material {
 Material blend(const Material& a, const Material& b, float t);
 
 /// A number of a material that a recipe leaves open. texture + i: number i of its texture.
-enum class MaterialField : std::uint8_t { roughness, metal, opacity, glow, cutout, tiles, tiles_up, texture };
+enum class MaterialField : std::uint8_t { roughness, metal, opacity, glow, cutout, tiles, tiles_up, metres, texture };
 
 struct MaterialRecipe {
   /// A number that varies is one of kSteps + 1 values, so that models have few materials.

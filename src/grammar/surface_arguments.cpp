@@ -22,6 +22,7 @@ constexpr SurfaceArgument kSurface[] = {
     {.name = "texture", .sort = texture},
     {.name = "tiles", .low = 0.25f, .high = 64, .fallback = 1, .logarithmic = true},
     {.name = "tiles_up", .low = 0.25f, .high = 64, .logarithmic = true},
+    {.name = "metres", .low = 0.01f, .high = 100, .logarithmic = true},
 };
 
 constexpr SurfaceArgument kImage[] = {{.name = "file", .sort = file}};

@@ -18,6 +18,7 @@ constexpr MaterialField kNumberFields[] = {MaterialField::roughness, MaterialFie
 MaterialField field_of(const SurfaceArgument& argument) {
   if (argument.name == "tiles") return MaterialField::tiles;
   if (argument.name == "tiles_up") return MaterialField::tiles_up;
+  if (argument.name == "metres") return MaterialField::metres;
   const auto place = static_cast<std::size_t>(&argument - surface_arguments("surface").data());
   return kNumberFields[place - 1];  // the colour comes first
 }

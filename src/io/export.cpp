@@ -25,9 +25,8 @@ std::string model_name(const std::string& path, const Provenance& provenance) {
 
 }  // namespace
 
-void export_model(const std::string& path, const Model& model, const MeshTable& meshes,
-                  const Surfaces& surfaces, const Provenance& provenance,
-                  const ExportOptions& options) {
+std::uint64_t export_model(const std::string& path, const Model& model, const MeshTable& meshes,
+                           const Surfaces& surfaces, const Provenance& provenance, const ExportOptions& options) {
   const std::filesystem::path file(path);
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
@@ -35,7 +34,10 @@ void export_model(const std::string& path, const Model& model, const MeshTable& 
   if (ending != ".glb" && ending != ".obj" && ending != ".ply" && ending != ".stl") {
     throw Error(fmt::format("{}: models are written as .glb, .obj, .ply or .stl, got \"{}\"", path, ending));
   }
-  const Parts parts = collect_parts(model, meshes, options.full);
+  const std::vector<Material>& materials = surfaces.materials();
+  const Parts parts = options.detail ? parts_at(model, meshes, materials, *options.detail, options.full)
+                                     : collect_parts(model, meshes, options.full, materials);
+  const std::uint64_t triangles = triangle_count(parts);
   const WriterInput input{parts, surfaces, provenance, model_name(path, provenance)};
   const auto named = [&](const auto& write) {
     try {
@@ -44,9 +46,18 @@ void export_model(const std::string& path, const Model& model, const MeshTable& 
       throw Error(fmt::format("{}: {}", path, e.what()));
     }
   };
-  if (ending == ".glb") return write_file(path, named([&] { return write_glb(input, options.gpu_instancing); }));
-  if (ending == ".ply") return write_file(path, named([&] { return write_ply(input); }));
-  if (ending == ".stl") return write_file(path, named([&] { return write_stl(input); }));
+  if (ending == ".glb") {
+    write_file(path, named([&] { return write_glb(input, options.gpu_instancing); }));
+    return triangles;
+  }
+  if (ending == ".ply") {
+    write_file(path, named([&] { return write_ply(input); }));
+    return triangles;
+  }
+  if (ending == ".stl") {
+    write_file(path, named([&] { return write_stl(input); }));
+    return triangles;
+  }
   const ObjFiles files = named([&] { return write_obj(input, file.stem().string()); });
   std::vector<std::unique_ptr<StagedFile>> staged;
   const auto stage = [&](const std::filesystem::path& target, std::string_view bytes) {
@@ -58,6 +69,7 @@ void export_model(const std::string& path, const Model& model, const MeshTable& 
     stage(file.parent_path() / name, texture_bytes(*picture, &provenance));
   // All are whole by now. The OBJ gets its name last, for it names the others.
   for (std::size_t i = staged.size(); i-- > 0;) staged[i]->commit();
+  return triangles;
 }
 
 }  // namespace espalier

@@ -3,9 +3,12 @@
 // what `full` or `parts` shows is written. Files are written to a temporary name in the same folder and renamed when
 // whole.
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "io/provenance.h"
+#include "model/level_of_detail.h"
 #include "model/model.h"
 #include "model/surfaces.h"
 
@@ -14,12 +17,12 @@ namespace espalier {
 struct ExportOptions {
   bool full = true;                // else parts
   bool gpu_instancing = false;     // GLB: EXT_mesh_gpu_instancing, as required extension
+  std::optional<LevelOfDetail> detail = {};  // none: parts as the grammar makes them
 };
 
-/// Throws Error naming the file (unknown ending, unwritable folder, full disk); then the old file, if any, is
+/// Gives the number of triangles that were written. Throws Error naming the file (unknown ending, unwritable folder, full disk); then the old file, if any, is
 /// untouched.
-void export_model(const std::string& path, const Model& model, const MeshTable& meshes,
-                  const Surfaces& surfaces, const Provenance& provenance,
-                  const ExportOptions& options = {});
+std::uint64_t export_model(const std::string& path, const Model& model, const MeshTable& meshes,
+                           const Surfaces& surfaces, const Provenance& provenance, const ExportOptions& options = {});
 
 }  // namespace espalier

@@ -56,6 +56,7 @@ Provenance from_json(const json& object) {
   p.score = number_member(object, "score");
   p.optimum = number_member(object, "optimum");
   p.picture = text_member(object, "picture");
+  p.mesh = text_member(object, "mesh");
   if (const auto inputs = object.find("inputs"); inputs != object.end()) {
     if (!inputs->is_object()) fail(fmt::format("\"inputs\" must be an object, got {}", inputs->type_name()));
     for (const auto& [name, hash] : inputs->items()) {
@@ -127,6 +128,7 @@ std::string to_json(const Provenance& p) {
   if (p.score) object["score"] = *p.score;
   if (p.optimum) object["optimum"] = *p.optimum;
   if (!p.picture.empty()) object["picture"] = p.picture;
+  if (!p.mesh.empty()) object["mesh"] = p.mesh;
   try {
     return object.dump(-1, ' ', true);  // ASCII, so that it may stand in any comment
   } catch (const json::exception& e) {

@@ -26,6 +26,7 @@ struct Provenance {
   std::optional<double> score;
   std::optional<double> optimum;
   std::string picture;  // render: its options as TOML
+  std::string mesh;     // export: how its meshes were made, as TOML; empty: as the grammar makes them
 
   bool operator==(const Provenance&) const = default;
 };

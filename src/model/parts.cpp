@@ -9,6 +9,7 @@
 
 #include "base/check.h"
 #include "model/primitives.h"
+#include "model/surface_scale.h"
 
 namespace espalier {
 namespace {
@@ -50,6 +51,17 @@ float ratio_of(const Instance& instance, const MeshRef& ref) {
   return ref.kind == MeshKind::cone && instance.top > 0 ? instance.top : 0;
 }
 
+/// What tells the shapes of two instances apart. Sizes count only where pictures are to scale.
+struct ShapeKey {
+  std::uint16_t mesh;
+  std::uint32_t ratio;
+  float metres;  // of a picture; 0: one picture per part
+  PartSize size;
+  auto operator<=>(const ShapeKey&) const = default;
+};
+
+float scale_of(const Material& material) { return material.textured() ? material.metres : 0; }
+
 }  // namespace
 
 Mesh with_normals(const Mesh& mesh) {
@@ -74,20 +86,28 @@ Mesh with_normals(const Mesh& mesh) {
   return split;
 }
 
-Parts collect_parts(const Model& model, const MeshTable& meshes, bool full) {
+bool is_shown(const Instance& instance, bool full) {
+  return (full ? in_full(instance) : in_parts(instance)) && can_be_shown(instance.model_from_mesh);
+}
+
+Parts collect_parts(const Model& model, const MeshTable& meshes, bool full, const std::vector<Material>& materials) {
   Parts out;
-  std::map<std::pair<std::uint16_t, std::uint32_t>, std::uint32_t> shape_of;
+  std::map<ShapeKey, std::uint32_t> shape_of;
   for (const Instance& instance : model.instances) {
-    if (!(full ? in_full(instance) : in_parts(instance)) || !can_be_shown(instance.model_from_mesh)) continue;
+    if (!is_shown(instance, full)) continue;
     const MeshRef& ref = meshes.ref(instance.mesh);
     const float ratio = ratio_of(instance, ref);
-    const auto next = static_cast<std::uint32_t>(out.shapes.size());
-    const auto [it, fresh] = shape_of.try_emplace({instance.mesh, std::bit_cast<std::uint32_t>(ratio)}, next);
+    ShapeKey key{instance.mesh, std::bit_cast<std::uint32_t>(ratio), 0, {}};
+    if (instance.material < materials.size()) key.metres = scale_of(materials[instance.material]);
+    if (ref.kind == MeshKind::file) key.metres = 0;
+    if (key.metres > 0) key.size = PartSize(instance.model_from_mesh.basis);
+    const auto [it, fresh] = shape_of.try_emplace(key, static_cast<std::uint32_t>(out.shapes.size()));
     if (fresh) {
       const bool cone = ref.kind == MeshKind::cone;
       const Mesh mesh = cone ? make_primitive(ref.kind, ratio, ref.sides) : meshes.mesh(instance.mesh);
       Shape& shape = out.shapes.emplace_back();
       shape.mesh = with_normals(mesh);
+      if (key.metres > 0) scale_uvs(shape.mesh, ref.kind, ratio, key.size.metres(), key.metres);
       shape.box = bounds(shape.mesh);
       shape.open = open_edges(mesh) > 0;
     }

@@ -41,8 +41,13 @@ inline bool can_be_shown(const Frame& frame) {
 }
 
 /// The parts that `full` (else: parts) shows. Instances whose frame is not finite, or has no area to show, are left
-/// out.
-Parts collect_parts(const Model& model, const MeshTable& meshes, bool full);
+/// out. `materials` (surfaces.h): shapes have texture coordinates in metres where those ask for them; without, all have
+/// one picture per part.
+Parts collect_parts(const Model& model, const MeshTable& meshes, bool full,
+                    const std::vector<Material>& materials = {});
+
+/// Whether `full` (else: parts) shows an instance, and it can be shown.
+bool is_shown(const Instance& instance, bool full);
 
 /// The part's shape in model space: mirrored parts are turned inside out, so that triangles face outwards.
 Mesh baked(const Shape& shape, const Frame& model_from_shape);

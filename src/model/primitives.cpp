@@ -7,42 +7,13 @@
 #include <glm/geometric.hpp>
 
 #include "base/check.h"
+#include "model/circle.h"
 #include "model/uv.h"
 
 namespace espalier {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr std::uint16_t kSphereSides = 32, kSphereRings = 16;
-
-struct CirclePoint {
-  double cos, sin;
-};
-
-/// The point i / n around the unit circle by the Taylor series on one octant, mirrored into the others: the same bits
-/// on every CPU (libm's double sine is not), and exactly symmetric where n is a multiple of 4.
-CirclePoint circle_point(std::uint32_t i, std::uint32_t n) {
-  const std::uint32_t eighths = 8 * i / n;
-  const bool flipped = eighths % 2 == 1;  // odd octants are measured back from their end
-  const std::uint32_t numerator = flipped ? n * (eighths + 1) - 8 * i : 8 * i - n * eighths;
-  const double x = 2 * kPi * numerator / (8.0 * n), x2 = x * x;
-  double sine = 0, cosine = 0;
-  for (int k = 9; k >= 0; --k) {
-    cosine = 1 - (k == 9 ? 0 : cosine) * x2 / ((2 * k + 1) * (2 * k + 2));
-    sine = 1 - (k == 9 ? 0 : sine) * x2 / ((2 * k + 2) * (2 * k + 3));
-  }
-  sine *= x;
-  switch (eighths % 8) {
-    case 0: return {cosine, sine};
-    case 1: return {sine, cosine};
-    case 2: return {-sine, cosine};
-    case 3: return {-cosine, sine};
-    case 4: return {-cosine, -sine};
-    case 5: return {-sine, -cosine};
-    case 6: return {sine, -cosine};
-    default: return {cosine, -sine};
-  }
-}
+constexpr std::uint32_t kSphereSides = 32;
 
 std::uint32_t add_vertex(Mesh& mesh, const Vec3& position, const Vec3& normal, const Vec2& uv) {
   mesh.positions.push_back(position);
@@ -105,15 +76,29 @@ Mesh make_quad() {
   return mesh;
 }
 
-/// A pointed outline that is widest below the middle; stem at y = -0.5, tip at y = +0.5.
-Mesh make_leaf() {
+}  // namespace
+
+Mesh make_leaf(LeafOutline outline) {
   const float h = 0.5f;
   Mesh mesh;
+  mesh.name = "leaf";
+  switch (outline) {
+    case LeafOutline::plain:
+      add_face(mesh, {{0, -h, 0}, {0.45f, -0.24f, 0}, {0.43f, 0.14f, 0}, {0, h, 0}, {-0.43f, 0.14f, 0},
+                      {-0.45f, -0.24f, 0}});
+      return mesh;
+    case LeafOutline::coarse:
+      add_face(mesh, {{0, -h, 0}, {h, -0.06f, 0}, {0, h, 0}, {-h, -0.06f, 0}});
+      return mesh;
+    case LeafOutline::fine: break;
+  }
   add_face(mesh, {{0, -h, 0}, {0.28f, -0.40f, 0}, {0.45f, -0.24f, 0}, {h, -0.06f, 0}, {0.43f, 0.14f, 0},
                   {0.26f, 0.33f, 0}, {0, h, 0}, {-0.26f, 0.33f, 0}, {-0.43f, 0.14f, 0}, {-h, -0.06f, 0},
                   {-0.45f, -0.24f, 0}, {-0.28f, -0.40f, 0}});
   return mesh;
 }
+
+namespace {
 
 /// A disc at height y, facing up or down.
 void add_cap(Mesh& mesh, float y, float radius, std::uint32_t sides, bool up) {
@@ -155,9 +140,13 @@ Mesh make_cone(float top, std::uint32_t sides) {
   return mesh;
 }
 
-Mesh make_sphere() {
+}  // namespace
+
+Mesh make_sphere(std::uint32_t sides) {
+  CHECK(sides >= 3);
   Mesh mesh;
-  const std::uint32_t sides = kSphereSides, rings = kSphereRings;
+  mesh.name = "sphere";
+  const std::uint32_t rings = std::max<std::uint32_t>(sides / 2, 2);
   const auto add = [&](const Vec3& direction, float u, float v) {
     add_vertex(mesh, 0.5f * direction, direction, {u, v});
   };
@@ -186,8 +175,6 @@ Mesh make_sphere() {
   return mesh;
 }
 
-}  // namespace
-
 Mesh make_primitive(MeshKind kind, float top, std::uint16_t sides) {
   CHECK(kind != MeshKind::file);
   const std::uint32_t facets = std::max<std::uint32_t>(sides, 3);
@@ -196,11 +183,11 @@ Mesh make_primitive(MeshKind kind, float top, std::uint16_t sides) {
     case MeshKind::box: mesh = make_box(), mesh.name = "box"; break;
     case MeshKind::cylinder: mesh = make_cone(1, facets), mesh.name = "cylinder"; break;
     case MeshKind::cone: mesh = make_cone(top > 0 ? top : 0, facets), mesh.name = "cone"; break;
-    case MeshKind::sphere: mesh = make_sphere(), mesh.name = "sphere"; break;
+    case MeshKind::sphere: mesh = make_sphere(kSphereSides); break;
     case MeshKind::wedge: mesh = make_wedge(), mesh.name = "wedge"; break;
     case MeshKind::pyramid: mesh = make_pyramid(), mesh.name = "pyramid"; break;
     case MeshKind::quad: mesh = make_quad(), mesh.name = "quad"; break;
-    case MeshKind::leaf: mesh = make_leaf(), mesh.name = "leaf"; break;
+    case MeshKind::leaf: mesh = make_leaf(LeafOutline::fine); break;
     case MeshKind::file: break;
   }
   return mesh;

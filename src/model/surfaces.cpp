@@ -15,14 +15,18 @@ std::uint32_t size_for(std::size_t pictures) {
 
 }  // namespace
 
+std::vector<Material> materials_of(const GeneratorGraph& graph, const Model& model) {
+  std::vector<Material> materials = graph.materials;
+  for (const MadeMaterial& made : model.materials) materials.push_back(graph.recipes[made.recipe].material(made.steps));
+  return materials;
+}
+
 Surfaces::Surfaces(std::vector<Material> materials) : materials_(std::move(materials)) {
   for (const Material& material : materials_) CHECK(!material.textured());
 }
 
 Surfaces::Surfaces(const GeneratorGraph& graph, const Model& model, TextureTable& textures)
-    : materials_(graph.materials) {
-  for (const MadeMaterial& made : model.materials)
-    materials_.push_back(graph.recipes[made.recipe].material(made.steps));
+    : materials_(materials_of(graph, model)) {
   std::vector<char> shown(materials_.size(), false);
   for (const Instance& instance : model.instances)
     if (instance.material < shown.size()) shown[instance.material] = true;

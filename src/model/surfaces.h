@@ -12,6 +12,9 @@ namespace espalier {
 /// How opacity is to be taken (glTF 2.0, section 3.9.4).
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
+/// The materials that Instance::material means: the graph's, and behind them those that the model made.
+std::vector<Material> materials_of(const GeneratorGraph& graph, const Model& model);
+
 class Surfaces {
  public:
   Surfaces() = default;
@@ -22,6 +25,7 @@ class Surfaces {
   Surfaces(const GeneratorGraph& graph, const Model& model, TextureTable& textures);
 
   std::size_t size() const { return materials_.size(); }
+  const std::vector<Material>& materials() const { return materials_; }
   /// A default for an index beyond the list.
   const Material& material(std::uint16_t index) const;
   /// Null where the material has no texture, or no part shows it.

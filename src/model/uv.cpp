@@ -9,15 +9,6 @@
 namespace espalier {
 namespace {
 
-/// 0..5: +x -x +y -y +z -z; where two sides are as near, z before x before y.
-int side_of(const Vec3& n) {
-  constexpr float kTie = 1e-4f;  // for normals that are equal but for rounding
-  const float x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
-  if (z + kTie >= x && z + kTie >= y) return n.z < 0 ? 5 : 4;
-  if (x + kTie >= y) return n.x < 0 ? 1 : 0;
-  return n.y < 0 ? 3 : 2;
-}
-
 Vec2 on_side(int side, const Vec3& p) {
   switch (side) {
     case 0: return {0.5f - p.z, p.y + 0.5f};
@@ -31,7 +22,15 @@ Vec2 on_side(int side, const Vec3& p) {
 
 }  // namespace
 
-Vec2 box_uv(const Vec3& position, const Vec3& normal) { return on_side(side_of(normal), position); }
+int box_side(const Vec3& n) {
+  constexpr float kTie = 1e-4f;  // for normals that are equal but for rounding
+  const float x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
+  if (z + kTie >= x && z + kTie >= y) return n.z < 0 ? 5 : 4;
+  if (x + kTie >= y) return n.x < 0 ? 1 : 0;
+  return n.y < 0 ? 3 : 2;
+}
+
+Vec2 box_uv(const Vec3& position, const Vec3& normal) { return on_side(box_side(normal), position); }
 
 Mesh with_uvs(const Mesh& mesh) {
   if (!mesh.uvs.empty()) return mesh;
@@ -45,7 +44,7 @@ Mesh with_uvs(const Mesh& mesh) {
     const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
     const Vec3 across = glm::cross(b - a, c - a);
     const float length = glm::length(across);
-    const int side = side_of(length > 0 ? across / length : Vec3(0, 0, 1));
+    const int side = box_side(length > 0 ? across / length : Vec3(0, 0, 1));
     Triangle split;
     for (int k = 0; k < 3; ++k) {
       const auto next = static_cast<std::uint32_t>(out.positions.size());

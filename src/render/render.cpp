@@ -168,7 +168,7 @@ Stage stage_for(const RenderSettings& settings, const Set& set, const Camera& ca
 
 Picture render(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
                const std::vector<Mesh>& ghosts, const RenderSettings& settings, Executor& executor) {
-  const Set set = build_set(model, meshes, surfaces, ghosts, settings.full);
+  const Set set = build_set(model, meshes, surfaces, ghosts, settings.full, settings.detail);
   const Lens lens = lens_for(settings, set);
   const Camera camera =
       settings.place ? placed(*settings.place, set, lens)
@@ -180,7 +180,7 @@ Picture render(const Model& model, const MeshTable& meshes, const Surfaces& surf
 void render_turntable(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
                       const std::vector<Mesh>& ghosts, const RenderSettings& settings, const Turntable& turntable,
                       Executor& executor, const std::function<void(std::uint32_t, Picture)>& take) {
-  const Set set = build_set(model, meshes, surfaces, ghosts, settings.full);
+  const Set set = build_set(model, meshes, surfaces, ghosts, settings.full, settings.detail);
   const Lens lens = lens_for(settings, set);
   const Camera first =
       settings.place ? placed(*settings.place, set, lens)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/executor.h"
+#include "model/level_of_detail.h"
 #include "model/model.h"
 #include "model/surfaces.h"
 
@@ -32,6 +33,7 @@ struct RenderSettings {
   std::uint32_t width = 1200, height = 900;
   float azimuth_deg = 35, elevation_deg = 22;  // where the camera stands, seen from the middle of the model
   bool full = true;                            // else parts
+  std::optional<LevelOfDetail> detail = {};    // none: parts as the grammar makes them
   int samples = 16;                            // per pixel, where edges cross it; 1..256
 
   std::optional<CameraPlace> place;  // instead of azimuth, elevation and framing

@@ -17,7 +17,7 @@
 namespace espalier {
 namespace {
 
-constexpr std::size_t kMostGhostCorners = 2'000'000;  // of a ghost's positions, for a snug frame; its box beyond
+constexpr std::size_t kMostSnugCorners = 2'000'000;  // of a mesh's positions, for a snug frame; its box beyond
 
 /// Flat shapes often come with no length along their flat axis: gives them one, so that the frame can be inverted.
 Mat3 with_depth(Mat3 basis, const Bounds& shape_box) {
@@ -75,8 +75,8 @@ class Twins {
 
 class SetBuilder {
  public:
-  SetBuilder(const Model& model, const MeshTable& table, const std::vector<Mesh>& ghosts, bool full)
-      : parts_(collect_parts(model, table, full)) {
+  /// `merged`: parts are many in one, so their boxes would frame the model too widely.
+  SetBuilder(Parts parts, const std::vector<Mesh>& ghosts, bool merged) : parts_(std::move(parts)), merged_(merged) {
     for (const Mesh& ghost : ghosts) ghosts_.push_back(with_crease_normals(ghost));
     measure();
   }
@@ -151,7 +151,7 @@ class SetBuilder {
     const bool textured = set_.texture(part.material);
     const Mat3 basis = with_depth(part.model_from_shape.basis, shape.box);
     const glm::dmat3 unit_basis = glm::dmat3(basis) * set_.scale;
-    for (const Vec3& corner : box_corners(shape.box)) {
+    for (const Vec3& corner : merged_ ? snug_corners(shape.mesh) : box_corners(shape.box)) {
       set_.corners.push_back(unit_point(part.model_from_shape.point(corner)));
     }
     if (!invertible(unit_basis)) {  // squeezed flat: a shape of its own, in place
@@ -200,13 +200,17 @@ class SetBuilder {
     return set_.shapes.back().get();
   }
 
+  static std::vector<Vec3> snug_corners(const Mesh& mesh) {
+    return mesh.positions.size() > kMostSnugCorners ? box_corners(bounds(mesh)) : mesh.positions;
+  }
+
   void add_corners(const Mesh& ghost) {
-    const std::vector<Vec3> corners =
-        ghost.positions.size() > kMostGhostCorners ? box_corners(bounds(ghost)) : ghost.positions;
+    const std::vector<Vec3> corners = snug_corners(ghost);
     set_.corners.insert(set_.corners.end(), corners.begin(), corners.end());
   }
 
   Parts parts_;
+  bool merged_;
   std::vector<Mesh> ghosts_;
   std::vector<TriangleSet*> shapes_;  // per shape of parts_, without and with texture coordinates; once used
   std::vector<const Cutout*> cutout_of_;  // per material
@@ -216,8 +220,10 @@ class SetBuilder {
 }  // namespace
 
 Set build_set(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
-              const std::vector<Mesh>& ghosts, bool full) {
-  return SetBuilder(model, meshes, ghosts, full).build(surfaces);
+              const std::vector<Mesh>& ghosts, bool full, const std::optional<LevelOfDetail>& detail) {
+  const std::vector<Material>& materials = surfaces.materials();
+  Parts parts = detail ? parts_at(model, meshes, materials, *detail, full) : collect_parts(model, meshes, full, materials);
+  return SetBuilder(std::move(parts), ghosts, detail.has_value()).build(surfaces);
 }
 
 }  // namespace espalier

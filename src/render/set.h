@@ -3,8 +3,10 @@
 // and the ghosts.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "model/level_of_detail.h"
 #include "model/parts.h"
 #include "model/surfaces.h"
 #include "render/tracer.h"
@@ -37,6 +39,6 @@ struct Set {
 };
 
 Set build_set(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
-              const std::vector<Mesh>& ghosts, bool full);
+              const std::vector<Mesh>& ghosts, bool full, const std::optional<LevelOfDetail>& detail = {});
 
 }  // namespace espalier

@@ -11,6 +11,7 @@
 #include "derivation/adapt.h"
 #include "derivation/encode.h"
 #include "io/file.h"
+#include "run/mesh_look.h"
 #include "run/model_files.h"
 #include "run/sample.h"
 #include "run/scene_scorer.h"
@@ -124,8 +125,24 @@ ExportReport export_derivation(const ExportRequest& request, MeshSource& source,
   const std::vector<Mesh> no_ghosts;
   ModelFiles files(*grammar.graph, meshes, load_textures(grammar), no_ghosts, {}, executor);
   const bool as_it_is = request.grammar.empty() && request.attributes.empty();
-  files.write(derivation, request.out, made_from(request.derivation, as_it_is, grammar, derivation, request.out));
-  return {adapted, files.model().truncated};
+  ExportReport report{adapted, false};
+  const auto write = [&](const std::string& path, const std::optional<LevelOfDetail>& detail) {
+    Provenance provenance = made_from(request.derivation, as_it_is, grammar, derivation, path);
+    if (detail) provenance.mesh = to_toml(*detail);
+    report.files.push_back({path, files.write(derivation, path, provenance)});
+  };
+  if (request.all_levels) {
+    const fs::path out(request.out);
+    LevelOfDetail detail = request.detail.value_or(LevelOfDetail{});
+    for (detail.level = 0; detail.level < LevelOfDetail::kCount; ++detail.level) {
+      const std::string name = fmt::format("{}-lod{}{}", out.stem().string(), detail.level, out.extension().string());
+      write((out.parent_path() / name).string(), detail);
+    }
+  } else {
+    write(request.out, request.detail);
+  }
+  report.truncated = files.model().truncated;
+  return report;
 }
 
 }  // namespace espalier

@@ -2,11 +2,14 @@
 // Derivation files: reading one back, scoring it against a scene, and exporting its model.
 
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "base/executor.h"
 #include "derivation/derivation.h"
 #include "io/provenance.h"
+#include "model/level_of_detail.h"
 #include "model/mesh_source.h"
 #include "run/grammar_file.h"
 #include "run/scene.h"
@@ -52,12 +55,19 @@ struct ExportRequest {
   std::string grammar;                            // path; empty: the copy in the folder of its run
   std::map<std::string, std::string> attributes;  // set anew; the derivation is adapted to them
   std::string out;                                // .glb .obj .ply .stl
+  std::optional<LevelOfDetail> detail = {};       // none: parts as the grammar makes them
+  bool all_levels = false;                        // `detail` at every level: NAME-lod0.glb ..
 };
 struct ExportReport {
+  struct File {
+    std::string path;
+    std::uint64_t triangles = 0;
+  };
   AdaptedGenes adapted;
   bool truncated = false;  // a budget of the model ran out: it is not whole
+  std::vector<File> files = {};
 };
-/// Writes the model of a derivation. Throws Error.
+/// Writes the model of a derivation, grown once, into one file or one per level of detail. Throws Error.
 ExportReport export_derivation(const ExportRequest& request, MeshSource& source, Executor& executor);
 
 }  // namespace espalier

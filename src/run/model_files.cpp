@@ -7,6 +7,7 @@
 #include "io/export.h"
 #include "io/file.h"
 #include "io/image.h"
+#include "run/mesh_look.h"
 
 namespace espalier {
 
@@ -30,14 +31,20 @@ ModelFiles::ModelFiles(const GeneratorGraph& graph, const MeshTable& meshes, con
       executor_(executor),
       expander_(graph) {}
 
-void ModelFiles::write(const Derivation& derivation, const std::string& path, const Provenance& provenance) {
-  if (path.ends_with(".json")) return write_file(path, derivation_document(graph_, derivation, provenance));
+std::uint64_t ModelFiles::write(const Derivation& derivation, const std::string& path, const Provenance& provenance) {
+  if (path.ends_with(".json")) {
+    write_file(path, derivation_document(graph_, derivation, provenance));
+    return 0;
+  }
   if (path.ends_with(".png")) {
     const Picture drawn = picture(derivation);
-    return write_png(path, drawn.width, drawn.height, drawn.rgb, provenance);
+    write_png(path, drawn.width, drawn.height, drawn.rgb, provenance);
+    return 0;
   }
   expander_.expand(derivation, ExpandTo::full, model_);
-  export_model(path, model_, meshes_, Surfaces(graph_, model_, textures_), provenance);
+  ExportOptions options;
+  if (!provenance.mesh.empty()) options.detail = parse_level_of_detail(provenance.mesh, "the model's settings");
+  return export_model(path, model_, meshes_, Surfaces(graph_, model_, textures_), provenance, options);
 }
 
 const Model& ModelFiles::model_of(const Derivation& derivation) {

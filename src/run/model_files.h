@@ -24,8 +24,9 @@ class ModelFiles {
   ModelFiles(const GeneratorGraph& graph, const MeshTable& meshes, const TextureTable& textures,
              const std::vector<Mesh>& ghosts, const RenderSettings& look, Executor& executor);
 
-  /// By the ending of `path`: .glb .obj .ply .stl with details, .png, .json (the derivation). Throws Error.
-  void write(const Derivation& derivation, const std::string& path, const Provenance& provenance);
+  /// By the ending of `path`: .glb .obj .ply .stl with details, .png, .json (the derivation). Meshes are made as
+  /// `provenance.mesh` says, so that a file is made again as it was. Triangles of a model; else 0. Throws Error.
+  std::uint64_t write(const Derivation& derivation, const std::string& path, const Provenance& provenance);
   Picture picture(const Derivation& derivation);
   Picture picture(const Derivation& derivation, std::array<std::uint32_t, 2> size);
   /// With details; stays until the next call.

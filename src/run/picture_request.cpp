@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "grammar/surface_arguments.h"
-#include "run/toml_section.h"
+#include "run/mesh_look.h"
 
 namespace espalier {
 namespace {
@@ -69,6 +69,7 @@ void check(const PictureRequest& r) {
   check_range("--samples", r.samples, 1, 256);
   check_camera(r);
   check_turntable(r);
+  check_alone("--view bones", r.view == PictureView::bones, "--joints or --lod", r.detail.has_value());
   check_alone("--transparent", r.transparent, "--background", !r.background.empty());
   if (!r.background.empty()) color_of(r.background);
 }
@@ -90,6 +91,7 @@ std::string to_toml(const PictureRequest& r) {
   for (const Choice<PictureView>& view : kViews) {
     if (view.value == r.view) text += fmt::format("view = \"{}\"\n", view.name);
   }
+  if (r.detail) text += to_toml(*r.detail);
   text += fmt::format("targets = {}\n", r.targets);
   if (r.frames == 0) return text;
   text += fmt::format("turntable = {}\nfixed_light = {}\n", r.frames, r.fixed_light);
@@ -116,6 +118,7 @@ PictureRequest parse_picture_request(std::string_view text, const std::string& n
   r.transparent = s.boolean("transparent").value_or(r.transparent);
   r.background = s.text("background").value_or(r.background);
   r.view = s.choice("view", kViews).value_or(r.view);
+  r.detail = level_of_detail(s);
   r.targets = s.boolean("targets").value_or(r.targets);
   whole("turntable", 0, PictureRequest::kMostFrames, r.frames);
   whole("columns", 0, PictureRequest::kMostFrames, r.columns);
@@ -132,6 +135,7 @@ RenderSettings render_settings(const PictureRequest& r) {
   s.width = r.size[0], s.height = r.size[1];
   s.azimuth_deg = static_cast<float>(r.azimuth_deg), s.elevation_deg = static_cast<float>(r.elevation_deg);
   s.full = r.view != PictureView::parts;
+  s.detail = r.detail;
   s.samples = static_cast<int>(r.samples);
   if (r.eye) s.place = CameraPlace{*r.eye, r.at};
   if (r.fov_deg) s.fov_deg = static_cast<float>(*r.fov_deg);

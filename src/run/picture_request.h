@@ -28,6 +28,7 @@ struct PictureRequest {
   bool ground = true, transparent = false;
   std::string background;             // "#rrggbb"; empty: the backdrop
   PictureView view = PictureView::full;
+  std::optional<LevelOfDetail> detail;  // none: parts as the grammar makes them
   bool targets = false;               // the scene's meshes as ghosts
   std::uint32_t frames = 0;           // 0: one picture, else a turntable
   std::uint32_t columns = 0;          // of its strip; 0: chosen

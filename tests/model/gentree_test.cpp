@@ -1,6 +1,8 @@
 // GenTree: exactly the 13 genes of the paper with their ranges, read off the trees that they make; chances that hang on
 // one gene.
 
+#include "base/hash.h"
+#include "model/parts.h"
 #include "model/shipped.h"
 
 namespace espalier {
@@ -148,6 +150,47 @@ TEST_F(GenTree, TheSeedGeneAloneDecidesItsChances) {
   EXPECT_TRUE(equal(one, tree(values, 99))) << "whatever the model's seed";
   values["random_seed"] = 0.75;
   EXPECT_FALSE(equal(one, tree(values, 1)));
+}
+
+/// The bytes of the mesh that files hold: positions and normals of all parts in model space.
+std::string mesh_hash(const GeneratorGraph& graph, const Model& model) {
+  class NoFiles : public MeshSource {
+    Mesh load(const std::string&) override { return {}; }
+  } files;
+  const Parts parts = collect_parts(model, MeshTable(graph, "", files), true);
+  std::string bytes;
+  for (const Part& part : parts.parts) {
+    const Mesh mesh = baked(parts.shapes[part.shape], part.model_from_shape);
+    for (const std::vector<Vec3>* list : {&mesh.positions, &mesh.normals})
+      bytes.append(reinterpret_cast<const char*>(list->data()), list->size() * sizeof(Vec3));
+    bytes.append(reinterpret_cast<const char*>(mesh.triangles.data()), mesh.triangles.size() * sizeof(Triangle));
+  }
+  return content_hash(bytes);
+}
+
+/// Byte for byte, on every machine: these hashes never change.
+TEST_F(GenTree, TheSameGenomeGivesTheSameMesh) {
+  Values values = {{"number_of_branches", 0.4}, {"length_ratio", 0.7}, {"width_ratio", 0.5}, {"taper", 0.6},
+                   {"branch_proximity", 0.5}, {"tree_depth", 0.4}, {"branch_angle_delta", 0.9},
+                   {"vertical_change", 0.3}, {"parent_influence", 0.8}, {"direction_noise", 0.4},
+                   {"branch_number_noise", 0.3}, {"subtree_depth_noise", 0.2}, {"random_seed", 0.123}};
+  EXPECT_EQ(mesh_hash(*graph_, tree(values)), "92f547d593a607f90ca272782447fd9b");
+  const auto leafy = compile_shipped("gentree.esp");
+  ASSERT_NE(leafy, nullptr);
+  graph_ = leafy;
+  EXPECT_EQ(mesh_hash(*graph_, tree(values)), "4bc23101bc5611ccb5a7ba7d436260b7") << "with green triangles";
+  graph_ = compile_shipped("gentree.esp", {{"height", "2.5"}, {"width", "0.2"}});
+  EXPECT_EQ(mesh_hash(*graph_, tree(values)), "b1df4e24ff9a5d8bab28c352a377fa4e") << "the trunk's size is a setting";
+}
+
+TEST_F(GenTree, GreenTrianglesAndTheTrunkAreSettings) {
+  const Values values = {{"number_of_branches", 0.2}};  // two, depth two
+  const std::size_t bare = tree(values).instances.size();
+  graph_ = compile_shipped("gentree.esp");
+  EXPECT_EQ(tree(values).instances.size(), bare + 3 * 4) << "a tuft on each of the four tips";
+  graph_ = compile_shipped("gentree.esp", {{"height", "2.5"}, {"width", "0.2"}});
+  EXPECT_NEAR(size_of(tree(values).instances[0]).y, 2.5f, 1e-5f);
+  EXPECT_NEAR(size_of(tree(values).instances[0]).x, 0.2f, 1e-5f);
 }
 
 TEST_F(GenTree, TheLargestTreeEndsTruncated) {
