@@ -4,6 +4,7 @@ import { join } from "node:path";
 import { cropOf, kPortraitHeight, kPortraitWidth } from "../src/view/portrait.ts";
 import { launch } from "./browser.ts";
 
+const kMostBytes = 12_000;
 const [from, to] = process.argv.slice(2) as [string, string];
 const browser = await launch();
 try {
@@ -11,7 +12,7 @@ try {
   await page.evaluate(`window.cropOf = ${cropOf.toString()}`);
   for (const name of readdirSync(from).filter((file) => file.endsWith(".png"))) {
     const png = readFileSync(join(from, name)).toString("base64");
-    const webp = await page.evaluate(async ([png, width, height]) => {
+    const webp = await page.evaluate(async ([png, width, height, most]) => {
       const image = new Image();
       image.src = `data:image/png;base64,${png}`;
       await image.decode();
@@ -27,8 +28,13 @@ try {
       const small = paper(width, height);
       small.imageSmoothingQuality = "high";
       small.drawImage(large.canvas, crop.x, crop.y, crop.width, crop.height, 0, 0, width, height);
-      return small.canvas.toDataURL("image/webp", 0.82);
-    }, [png, kPortraitWidth, kPortraitHeight] as const);
+      let url = "";
+      for (const quality of [0.82, 0.7, 0.55]) {
+        url = small.canvas.toDataURL("image/webp", quality);
+        if (url.length * 0.75 <= most) break;
+      }
+      return url;
+    }, [png, kPortraitWidth, kPortraitHeight, kMostBytes] as const);
     writeFileSync(join(to, name.replace(/png$/, "webp")), Buffer.from(webp.slice(webp.indexOf(",") + 1), "base64"));
   }
 } finally {

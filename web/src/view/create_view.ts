@@ -305,6 +305,9 @@ export class View implements StudioView, Desk {
     this.cost.frame = end - start;
     ++this.cost.frames;
     if (this.arrived) this.host.drawn(this.arrived.model, end - this.arrived.at);
+    // For e2e/measure.ts.
+    const detail = { model: this.arrived?.model ?? null, milliseconds: this.cost.frame, calls: this.cost.calls };
+    this.element.dispatchEvent(new CustomEvent("viewframe", { detail, bubbles: true }));
     this.arrived = null;
     if (this.motion.moving) this.redraw();
   }
