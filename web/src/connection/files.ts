@@ -13,6 +13,11 @@ export class Files {
     return this.address(`projects/${project}/files/${path.split("/").map(encodeURIComponent).join("/")}`);
   }
 
+  /** A small picture of a mesh of a project. */
+  previewUrl(project: number, path: string): string {
+    return this.address(`projects/${project}/previews/${path.split("/").map(encodeURIComponent).join("/")}`);
+  }
+
   favouriteUrl(project: number, favourite: number): string {
     return this.address(`projects/${project}/favourites/${favourite}`);
   }
