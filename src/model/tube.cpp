@@ -15,6 +15,7 @@ namespace {
 
 constexpr float kCollar = 0.3f;      // how much wider a limb is where it meets its host
 constexpr float kCollarRun = 1.6f;   // radii from there to where it has its own width again
+constexpr double kBetterFit = 0.75;   // pictures around that a tube may be off before their number changes
 constexpr float kThinForHost = 0.8f;  // of the host's radius; thicker limbs fork and need no collar
 
 bool finite(const LimbJoint& joint) {
@@ -82,13 +83,29 @@ std::vector<Ring> sweep(const std::vector<LimbJoint>& joints) {
   return rings;
 }
 
-/// Of the surface between the rings, weighted by its length.
+/// Of the surface between a ring and the next.
+double girth_above(const std::vector<Ring>& rings, std::size_t k) {
+  return kPi * (static_cast<double>(rings[k].radius) + rings[k + 1].radius);
+}
+
+/// Of all the surface, weighted by its length.
 double mean_girth(const std::vector<Ring>& rings) {
   double sum = 0;
-  for (std::size_t k = 1; k < rings.size(); ++k)
-    sum += kPi * (static_cast<double>(rings[k].radius) + rings[k - 1].radius) *
-           (rings[k].from_base - rings[k - 1].from_base);
+  for (std::size_t k = 0; k + 1 < rings.size(); ++k)
+    sum += girth_above(rings, k) * (rings[k + 1].from_base - rings[k].from_base);
   return sum / rings.back().from_base;
+}
+
+/// How many pictures stand around the surface between each ring and the next. Where the girth changes so much that another
+/// number fits clearly better, that one goes on.
+std::vector<float> pictures(const std::vector<Ring>& rings, double metres) {
+  std::vector<float> out;
+  for (std::size_t k = 0; k + 1 < rings.size(); ++k) {
+    const double girth = girth_above(rings, k);
+    const bool stays = k > 0 && std::abs(girth / metres - static_cast<double>(out.back())) < kBetterFit;
+    out.push_back(stays ? out.back() : pictures_around(girth, metres));
+  }
+  return out;
 }
 
 void add_vertex(Mesh& mesh, const Vec3& position, const Vec3& normal, const Vec2& uv) {
@@ -124,23 +141,27 @@ void add_tube(Mesh& mesh, std::span<const LimbJoint> given, const TubeLook& look
   if (joints.size() < 2 || std::none_of(joints.begin(), joints.end(), thick)) return;
   const std::vector<Ring> rings = sweep(joints);
   const double girth = mean_girth(rings), metres = look.metres > 0 ? look.metres : girth;
-  const float pictures = pictures_around(girth, metres);
+  const std::vector<float> around = pictures(rings, metres);
   const std::uint32_t sides = look.sides;
-  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  for (const Ring& ring : rings) {
+  const auto add_ring = [&](const Ring& ring, float pictures_here) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const auto v = static_cast<float>(ring.from_base / metres);
     for (std::uint32_t i = 0; i <= sides; ++i) {  // the first side's twice: the picture's edges meet there
       const Vec3 outward = rim(ring, i, sides);
-      const float u = pictures * (1 - static_cast<float>(i) / static_cast<float>(sides));
+      const float u = pictures_here * (1 - static_cast<float>(i) / static_cast<float>(sides));
       add_vertex(mesh, ring.at + ring.radius * outward, glm::normalize(outward - ring.widening * ring.along), {u, v});
     }
-  }
-  for (std::uint32_t k = 0; k + 1 < rings.size(); ++k) {
+    return first;
+  };
+  std::uint32_t low = add_ring(rings[0], around[0]);
+  for (std::size_t k = 0; k + 1 < rings.size(); ++k) {
+    if (k > 0 && around[k] != around[k - 1]) low = add_ring(rings[k], around[k]);
+    const std::uint32_t high = add_ring(rings[k + 1], around[k]);
     for (std::uint32_t i = 0; i < sides; ++i) {
-      const std::uint32_t low = first + k * (sides + 1) + i, high = low + sides + 1;
-      if (rings[k].radius > 0) mesh.triangles.push_back({low, high, low + 1});
-      if (rings[k + 1].radius > 0) mesh.triangles.push_back({low + 1, high, high + 1});
+      if (rings[k].radius > 0) mesh.triangles.push_back({low + i, high + i, low + i + 1});
+      if (rings[k + 1].radius > 0) mesh.triangles.push_back({low + i + 1, high + i, high + i + 1});
     }
+    low = high;
   }
   add_end(mesh, rings.front(), sides, metres, false);
   add_end(mesh, rings.back(), sides, metres, true);

@@ -12,8 +12,9 @@ namespace espalier {
 
 struct TubeLook {
   std::uint32_t sides = 8;  // >= 3
-  /// Metres of bark that a picture covers: v is the length of the surface from the base over `metres`, u goes round as
-  /// many pictures as fit the mean girth best. 0: one picture goes round, and is as tall.
+  /// Metres of bark that a picture covers: v is the length of the surface from the base over `metres`; around stands the
+  /// whole number of pictures, at least 1, that fits the girth, another where the tube has grown much thinner. 0: a
+  /// picture is as wide and as tall as the mean girth.
   float metres = 0;
 };
 

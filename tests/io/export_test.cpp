@@ -300,5 +300,18 @@ TEST(ExportObj, WritesBothFilesOrNeither) {
   EXPECT_EQ(folder.file_count(), 2u);
 }
 
+/// What is told is what is written: triangles of the STL file, which holds nothing else.
+TEST(Export, TellsItsTriangles) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.stl";
+  for (std::uint32_t level = 0; level <= LevelOfDetail::kCount; ++level) {
+    ExportOptions options;
+    if (level < LevelOfDetail::kCount) options.detail = LevelOfDetail{level, Joints::smooth};
+    const std::uint64_t triangles =
+        export_model(path, mixed_model(), primitive_table(), two_materials(), test_provenance(), options);
+    EXPECT_EQ(read_file(path).size(), 84 + 50 * triangles);
+  }
+}
+
 }  // namespace
 }  // namespace espalier

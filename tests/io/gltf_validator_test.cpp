@@ -6,6 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "io/file.h"
+#include "derivation/sample.h"
+#include "model/expand.h"
+#include "shipped_grammar.h"
 #include "test_models.h"
 
 namespace espalier {
@@ -64,6 +67,31 @@ TEST(GltfValidator, AcceptsTinyHugeAndFlatParts) {
     }
   }
   expect_clean(model);
+}
+
+/// Trees with bark and leaves, their pictures to scale: as the grammar makes them, and at the finest and coarsest level.
+TEST(GltfValidator, AcceptsTreesAtAllLevels) {
+  const auto graph = test::compile_shipped("arboretum.esp", {{"most_spans", "100"}});
+  AssimpMeshSource source;
+  const MeshTable meshes(*graph, "", source);
+  const TemporaryFolder folder;
+  const std::string path = folder / "tree.glb";
+  for (const std::uint32_t index : {1u, 2u}) {
+    RandomStream random({index, Purpose::test, 0, 0});
+    Model model;
+    Expander(*graph).expand(sample(*graph, random, 10).derivation, ExpandTo::full, model);
+    TextureTable textures;
+    const Surfaces surfaces(*graph, model, textures);
+    std::vector<std::optional<LevelOfDetail>> looks = {std::nullopt};
+    for (const std::uint32_t level : {0u, 3u})
+      for (const Joints joints : {Joints::separate, Joints::smooth}) looks.push_back(LevelOfDetail{level, joints});
+    for (const auto& look : looks) {
+      export_model(path, model, meshes, surfaces, test_provenance(), {.detail = look});
+      const nlohmann::json report = validate(path);
+      if (report.is_null()) return;
+      for (const char* kind : {"numErrors", "numWarnings", "numInfos", "numHints"}) EXPECT_EQ(report[kind], 0) << report.dump(1);
+    }
+  }
 }
 
 TEST(GltfValidator, FindsFaults) {  // else the tests above say nothing

@@ -78,7 +78,7 @@ TEST(Tube, HasTheVolumeOfItsFrustum) {
 
 /// The exact normals of a cone: the same share of it leans along the axis everywhere.
 TEST(Tube, NormalsAreThoseOfTheCone) {
-  const Mesh mesh = tube(straight(5, 0.5f, 0.5f, 0.1f), {16, 1});
+  const Mesh mesh = tube(straight(5, 0.5f, 0.5f, 0.1f), {16, 10});
   const float lean = 0.2f / std::sqrt(1 + 0.2f * 0.2f);  // 0.4 m thinner over 2 m
   std::size_t sides = 0;
   for (const Vec3& n : mesh.normals) {
@@ -105,6 +105,26 @@ TEST(Tube, BarkHasOneScale) {
       }
     }
   }
+}
+
+/// A tube that tapers has fewer pictures around where it is thin, and the number is never far from what would fit.
+TEST(Tube, BarkKeepsItsScaleOnATaperingTube) {
+  const std::vector<LimbJoint> joints = straight(40, 0.1f, 0.5f, 0.02f);
+  const Mesh mesh = tube(joints, {8, 0.4f});
+  EXPECT_EQ(open_edges(mesh), 0u);
+  float least = 99, most = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
+    if (std::abs(mesh.normals[t[0]].y) > 0.99f) continue;  // the ends
+    const float low = std::min({mesh.uvs[t[0]].x, mesh.uvs[t[1]].x, mesh.uvs[t[2]].x});
+    const float pictures = 8 * (std::max({mesh.uvs[t[0]].x, mesh.uvs[t[1]].x, mesh.uvs[t[2]].x}) - low);
+    const Vec3 middle = (a + b + c) / 3.0f;
+    const double wanted = 2 * kPi * (0.5 - 0.48 * static_cast<double>(middle.y) / 3.9) / 0.4;
+    EXPECT_NEAR(static_cast<double>(pictures), std::max(wanted, 1.0), 0.85);
+    least = std::min(least, pictures), most = std::max(most, pictures);
+  }
+  EXPECT_FLOAT_EQ(least, 1);
+  EXPECT_FLOAT_EQ(most, 8);
 }
 
 /// Without a scale one picture goes round, and is as tall as it is wide.
