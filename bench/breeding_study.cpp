@@ -6,6 +6,7 @@
 //   methods.csv   one line for each favourite, method and noise: ratings until a shown tree is close, 0 where none came
 //                 within the cap; the best distance and the shape's distance at the end
 //   curves.csv    the best distance shown so far, after every 20 ratings
+//   shapes.csv    the distance of the favourite's shape to itself, by other random points, and to another viable tree's
 //   variants.csv  GenTree's four variants with an editor, one simulated hour each
 #include <algorithm>
 #include <cmath>
@@ -214,20 +215,31 @@ Derivation draw_favourite(const LoadedGrammar& grammar, const MeshTable& meshes,
 }
 
 /// Median distance of subdivided D2 over the voxels with surface.
-double shape_distance(const LoadedGrammar& grammar, const MeshTable& meshes, const Derivation& a, const Derivation& b) {
+double shape_distance(const LoadedGrammar& grammar, const MeshTable& meshes, const Derivation& a, const Derivation& b,
+                      std::uint32_t draw = 0) {
   ExpandLimits limits;
   limits.most_parts = kLargestShape;
   limits.make_materials = false;
   Expander expander(*grammar.graph, limits);
   const auto executor = make_serial_executor();
   Model model;
-  const auto described = [&](const Derivation& derivation) {
+  const auto described = [&](const Derivation& derivation, std::uint32_t points) {
     expander.expand(derivation, ExpandTo::full, model);
     const Shell shell = shell_of(model, meshes);
     DescriptorSettings settings;
+    settings.draw = points;
     return describe(shell, Subdivision(bounds(shell), settings.layers), settings, *executor);
   };
-  return median(distance(described(a), described(b)), VoxelChoice::occupied);
+  return median(distance(described(a, 0), described(b, draw)), VoxelChoice::occupied);
+}
+
+/// What the distances of shapes are to be held against: the favourite's to itself by other random points of the surface, and
+/// to another viable tree.
+std::string shapes_of(std::uint32_t which, const Derivation& favourite, const LoadedGrammar& grammar,
+                      const MeshTable& meshes) {
+  const Derivation other = draw_favourite(grammar, meshes, which + 500'000);
+  return fmt::format("{},{:.5f},{:.5f}\n", which, shape_distance(grammar, meshes, favourite, favourite, 1),
+                     shape_distance(grammar, meshes, favourite, other));
 }
 
 struct MethodRow {
@@ -336,7 +348,7 @@ int study(const Options& options) {
   const auto executor = make_tbb_executor(options.threads);
   constexpr std::size_t kKinds = std::size(kMethods) * std::size(kNoises);
   std::vector<MethodRow> rows(options.favourites * kKinds);
-  std::vector<std::string> variants(options.favourites * 4);
+  std::vector<std::string> variants(options.favourites * 4), shapes(options.favourites);
   executor->for_each(options.favourites, [&](std::size_t f, int) {
     const auto which = options.first + static_cast<std::uint32_t>(f);
     const Derivation favourite = draw_favourite(grammar, meshes, which);
@@ -345,6 +357,7 @@ int study(const Options& options) {
       rows[f * kKinds + kind] = run_method(static_cast<Method>(kind / std::size(kNoises)), kind % std::size(kNoises), which,
                                            favourite, close, options, grammar, meshes);
     }
+    if (options.shapes) shapes[f] = shapes_of(which, favourite, grammar, meshes);
     for (int variant = 1; variant <= 4; ++variant) {
       variants[f * 4 + static_cast<std::size_t>(variant - 1)] = run_variant(variant, which, favourite, grammar);
     }
@@ -353,7 +366,10 @@ int study(const Options& options) {
   for (const MethodRow& row : rows) methods += row.line, curves += row.curve;
   std::string lines = "favourite,variant,generations,best,mean,diversity\n";
   for (const std::string& line : variants) lines += line;
+  std::string shape_lines = "favourite,anew,other\n";
+  for (const std::string& line : shapes) shape_lines += line;
   std::filesystem::create_directories(options.out);
+  write_file(options.out + "/shapes.csv", shape_lines);
   write_file(options.out + "/methods.csv", methods);
   write_file(options.out + "/curves.csv", curves);
   write_file(options.out + "/variants.csv", lines);
