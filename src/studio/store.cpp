@@ -16,6 +16,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "studio/breeding_tables.h"
 
 namespace espalier::studio {
 namespace {
@@ -124,7 +125,8 @@ void Store::migrate() {
   if (version == kVersion) return;
   Transaction transaction(*database_);
   if (version < 1) database_->run(kVersion1);
-  database_->run(kVersion2);
+  if (version < 2) database_->run(kVersion2);
+  database_->run(kBreedingTables);
   transaction.commit();
 }
 
@@ -191,6 +193,7 @@ std::int64_t Store::duplicate(std::int64_t project) {
         "from favourite where project = ? order by id"}) {
     database_->prepare(statement).bind(copy).bind(project).run();
   }
+  copy_breedings(*database_, project, copy);
   transaction.commit();
   return copy;
 }
@@ -318,6 +321,11 @@ std::int64_t Store::add_favourite(std::int64_t project, const StoredFavourite& f
 void Store::remove_favourite(std::int64_t project, std::int64_t favourite) {
   const std::lock_guard lock(mutex_);
   database_->prepare("delete from favourite where project = ? and id = ?").bind(project).bind(favourite).run();
+}
+
+void Store::alone(const std::function<void(Database&)>& work) {
+  const std::lock_guard lock(mutex_);
+  work(*database_);
 }
 
 std::optional<std::string> Store::setting(const std::string& name) {
