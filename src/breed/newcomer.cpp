@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "derivation/moves.h"
 #include "derivation/sample.h"
 #include "derivation/strip.h"
 
@@ -17,11 +18,18 @@ void finish(const GeneratorGraph& graph, Derivation& derivation, RandomStream& r
   }
 }
 
+/// Priors are often of small models with long tails; nobody wants a screen of bare trunks.
+void lengthen(const GeneratorGraph& graph, Derivation& derivation, const Locks& locks, RandomStream& random) {
+  const std::uint32_t wanted = kShortestNewcomer + random.below(kLongestGrown - kShortestNewcomer + 1);
+  while (derivation.size() < wanted && grow(graph, derivation, locks, random)) {}
+}
+
 }  // namespace
 
 Derivation draw_newcomer(const GeneratorGraph& graph, RandomStream& random) {
   Derivation derivation = sample(graph, random, kMostNewcomerGenes).derivation;
   finish(graph, derivation, random);
+  lengthen(graph, derivation, {}, random);
   return derivation;
 }
 
@@ -34,6 +42,7 @@ Derivation draw_newcomer(const GeneratorGraph& graph, const Derivation& host, co
   Derivation newcomer = stripped(graph, host, held.genes);
   reopen(graph, newcomer, held.genes);
   finish(graph, newcomer, random);
+  lengthen(graph, newcomer, held.genes, random);
   const std::vector<std::uint8_t> is_held = held_draws(graph, newcomer, held);
   for (std::size_t i = 0; i < is_held.size(); ++i) {
     if (!is_held[i]) newcomer.draws[i] = random.next_u32();

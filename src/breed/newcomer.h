@@ -8,8 +8,11 @@
 namespace espalier {
 
 inline constexpr std::uint32_t kMostNewcomerGenes = 2000;
+inline constexpr std::uint32_t kShortestNewcomer = 8, kLongestGrown = 40;
 
-/// A finished derivation drawn from the grammar; growth of optional slots ends at kMostNewcomerGenes. Throws Error where
+/// A finished derivation drawn from the grammar; growth of optional slots ends at kMostNewcomerGenes.
+/// Where it has fewer genes than a number drawn between kShortestNewcomer and kLongestGrown, it grows on by moves
+/// (derivation/moves.h), as first individuals of searches do. Throws Error where
 /// required slots have no end.
 Derivation draw_newcomer(const GeneratorGraph& graph, RandomStream& random);
 

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/executor.h"
 #include "breed/breed_problem.h"
+#include "breed/usual_viability.h"
 #include "shipped_grammar.h"
 
 namespace espalier::test {
@@ -21,12 +22,13 @@ class NoFiles final : public MeshSource {
 struct BreedFixture {
   BreedProblem problem;
 
-  explicit BreedFixture(const std::string& grammar, int threads = 1, const ModelAppraiser::Settings& settings = ModelAppraiser::Settings(),
-                        BatchScorer* targets = nullptr)
+  explicit BreedFixture(const std::string& grammar, int threads = 1, BatchScorer* targets = nullptr)
       : executor_(make_thread_executor(threads)) {
     problem.graph = compile_shipped(grammar);
     NoFiles files;
     meshes_ = MeshTable(*problem.graph, "", files);
+    ModelAppraiser::Settings settings;
+    settings.viability = usual_viability(*problem.graph, meshes_);
     appraiser_ = std::make_unique<ModelAppraiser>(problem.graph, meshes_, settings, targets, *executor_);
     problem.appraiser = appraiser_.get();
     problem.seed = 5;
