@@ -28,6 +28,7 @@ void ProjectSession::act(const WebSocketPtr&, const Other&) {
 
 void ProjectSession::answer(const WebSocketPtr& socket, const api::Request& request, std::optional<std::int64_t> number) {
   try {
+    if (is_breeding(request)) return send_to_room(socket, request, number);
     std::visit([&](const auto& asked) { act(socket, asked); }, request);
     socket->out.push_text(answer_text(api::Done{}, number));
   } catch (const std::exception& error) {
@@ -149,6 +150,10 @@ void ProjectSession::act(const WebSocketPtr&, const api::KeepFavourite&) {
   if (!model) throw Error("no model is shown");
   StoredFavourite favourite{0, model->score.value_or(0), static_cast<std::int64_t>(model->derivation.size()), model->words,
                             model->encoded};
+  keep(std::move(favourite));
+}
+
+void ProjectSession::keep(StoredFavourite favourite) {
   favourite.id = store_.add_favourite(project_, favourite);
   favourites_.push_back(std::move(favourite));
   send_document();
