@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "base/counted.h"
+#include "base/base64.h"
 #include "base/error.h"
 #include "derivation/encode.h"
 #include "studio/breeding_room.h"
@@ -175,7 +175,7 @@ bool BreedingRoom::act(const RoomRequest& from, const api::KeepIndividual& keep)
   const RoomIndividual one = session().find(keep.individual);
   const BredModelPtr model = model_of(one);
   StoredFavourite favourite{0, model->facts.score.value_or(0), model->facts.genes, model->facts.words,
-                            encode(bench_.graph(), *one.derivation)};
+                            encode(bench_.graph(), *one.derivation), decode_base64(keep.picture.value_or(""))};
   listener_.keep_bred(from.socket, favourite, from.number);
   return false;
 }

@@ -37,7 +37,7 @@ create table breeding_step (
 create table breeding_change (
   session integer not null references breeding_session on delete cascade, step integer not null, number integer not null,
   field text not null, subject integer not null, before text, after text, primary key (session, step, number)) without rowid;
-pragma user_version = 3;
+pragma user_version = 4;
 )";
 
 void copy_breedings(Database& database, std::int64_t project, std::int64_t copy) {

@@ -9,7 +9,7 @@
 
 namespace espalier::studio {
 
-/// Makes them: version 3 of the file.
+/// Makes them: version 4 of the file.
 extern const char* const kBreedingTables;
 
 /// All sessions of a project once more, for its copy. Within a transaction.

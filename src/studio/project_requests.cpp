@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/base64.h"
 #include "base/error.h"
 #include "derivation/encode.h"
 #include "grammar/formatter.h"
@@ -145,11 +146,11 @@ void ProjectSession::act(const WebSocketPtr&, const api::Format&) {
   change(next, {.label = "Format"}, LiveStart::keep);
 }
 
-void ProjectSession::act(const WebSocketPtr&, const api::KeepFavourite&) {
-  const ShownModelPtr model = shown();
+void ProjectSession::act(const WebSocketPtr&, const api::KeepFavourite& asked) {
+  const ShownModelPtr model = asked.model ? find_model(*asked.model) : shown();
   if (!model) throw Error("no model is shown");
   StoredFavourite favourite{0, model->score.value_or(0), static_cast<std::int64_t>(model->derivation.size()), model->words,
-                            model->encoded};
+                            model->encoded, decode_base64(asked.picture.value_or(""))};
   keep(std::move(favourite));
 }
 

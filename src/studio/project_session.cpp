@@ -244,7 +244,7 @@ void ProjectSession::send_document(const WebSocketPtr* only) {
     }
     document.files.push_back(std::move(info));
   }
-  for (const StoredFavourite& one : favourites_) document.favourites.push_back({one.id, one.score, one.genes, one.words});
+  for (const StoredFavourite& one : favourites_) document.favourites.push_back({one.id, one.score, one.genes, one.words, !one.picture.empty()});
   document.undo = now_.undo;
   document.redo = now_.redo;
   send(to_text(document), only);

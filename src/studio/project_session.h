@@ -97,7 +97,7 @@ class ProjectSession final : private LiveListener, private RoomListener {
   void act(const WebSocketPtr& socket, const api::SetLock& set);
   void act(const WebSocketPtr& socket, const api::AskReach& ask);
   void act(const WebSocketPtr& socket, const api::Format&);
-  void act(const WebSocketPtr& socket, const api::KeepFavourite&);
+  void act(const WebSocketPtr& socket, const api::KeepFavourite& keep);
   void act(const WebSocketPtr& socket, const api::DropFavourite& drop);
   void act(const WebSocketPtr& socket, const api::ShowFavourite& show);
   template <class Other>

@@ -123,8 +123,8 @@ std::int64_t Store::duplicate(std::int64_t project) {
         "insert into blob select ?, hash, bytes from blob where project = ?",
         "insert into step select ?, number, label, gesture, search, grammar, scene, files, model_before, model_after "
         "from step where project = ?",
-        "insert into favourite (project, score, genes, words, derivation) select ?, score, genes, words, derivation "
-        "from favourite where project = ? order by id"}) {
+        "insert into favourite (project, score, genes, words, derivation, picture) "
+        "select ?, score, genes, words, derivation, picture from favourite where project = ? order by id"}) {
     database_->prepare(statement).bind(copy).bind(project).run();
   }
   copy_breedings(*database_, project, copy);

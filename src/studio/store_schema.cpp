@@ -34,6 +34,11 @@ create table setting (name text primary key, value text not null) without rowid;
 pragma user_version = 2;
 )";
 
+constexpr const char* kVersion3 = R"(
+alter table favourite add column picture blob not null default x'';
+pragma user_version = 3;
+)";
+
 }  // namespace
 
 void Store::migrate() {
@@ -49,6 +54,7 @@ void Store::migrate() {
   Transaction transaction(*database_);
   if (version < 1) database_->run(kVersion1);
   if (version < 2) database_->run(kVersion2);
+  if (version < 3) database_->run(kVersion3);
   database_->run(kBreedingTables);
   transaction.commit();
 }

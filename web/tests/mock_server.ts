@@ -25,6 +25,7 @@ export class MockServer {
   private server = createServer((request, response) => this.http(request, response));
   private port = 0;
   private models = 0;
+  private favourites = 0;
   private locked = new Set<number>();
   private search: SearchState = { kind: "search_state", running: false, engine: "guided", steps: 0, evaluations: 0, seconds: 0, rises: [], onward: false };
   private timer: ReturnType<typeof setInterval> | null = null;
@@ -80,6 +81,9 @@ export class MockServer {
       });
       return;
     }
+    const favourite = /^\/projects\/(\d+)\/favourites\/(\d+)$/.exec(url.pathname);
+    const picture = favourite && this.projects.find((one) => one.id === Number(favourite[1]))?.pictures.get(Number(favourite[2]));
+    if (picture) return void response.writeHead(200, { "Content-Type": "image/webp" }).end(picture);
     if (file !== null || url.pathname.includes("/export/")) return void response.writeHead(404).end();
     const path = normalize(url.pathname === "/" ? "/index.html" : url.pathname);
     const full = join(kPage, path);
@@ -242,7 +246,8 @@ export class MockServer {
         this.show(project);
         return done();
       case "keep_favourite":
-        project.favourites = [...project.favourites, { id: Date.now(), score: 31931.75, genes: 14, words: "all of 2 curves" }];
+        project.favourites = [...project.favourites, { id: ++this.favourites, score: 31931.75, genes: 14, words: "all of 2 curves", picture: message.picture !== undefined }];
+        if (message.picture !== undefined) project.pictures.set(this.favourites, Buffer.from(message.picture, "base64"));
         project.touch();
         this.broadcast(project);
         return done();
