@@ -72,8 +72,8 @@ void copy_breedings(Database& database, std::int64_t project, std::int64_t copy)
 
 std::vector<std::string> breeding_file_lists(Database& database, std::int64_t project) {
   std::vector<std::string> lists;
-  Statement ask = database.prepare("select distinct bytes from breeding_text join breeding_generation using (session) "
-                                   "join breeding_session on id = session where project = ? and hash = files");
+  Statement ask = database.prepare("select distinct t.bytes from breeding_session s join breeding_generation g on g.session = s.id "
+                                   "join breeding_text t on t.session = s.id and t.hash = g.files where s.project = ?");
   ask.bind(project);
   while (ask.step()) lists.push_back(ask.text(0));
   return lists;
