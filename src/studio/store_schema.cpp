@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "studio/breeding_tables.h"
 #include "studio/store.h"
 
 namespace espalier::studio {
@@ -53,7 +54,8 @@ void Store::migrate() {
   Transaction transaction(*database_);
   if (version < 1) database_->run(kVersion1);
   if (version < 2) database_->run(kVersion2);
-  database_->run(kVersion3);
+  if (version < 3) database_->run(kVersion3);
+  database_->run(kBreedingTables);
   transaction.commit();
 }
 

@@ -223,14 +223,16 @@ class WebServer::Implementation {
   }
 
   static void write_all(mg_connection* connection, WebSocket& socket) {
-    Bytes meshes;  // that the page has: projects count their tables each for itself
+    Bytes tables[2];  // that the page has, of the project's model and of the breeding room: projects count them each for itself
     const auto write = [&](const Bytes& bytes, int opcode) {
       return !bytes || mg_websocket_write(connection, opcode, bytes->data(), bytes->size()) > 0;
     };
     while (const std::optional<OutMessage> message = socket.out.take()) {
       bool written = true;
-      if (message->kind == OutMessage::Kind::model) {
+      const bool individual = message->kind == OutMessage::Kind::individual;
+      if (message->kind == OutMessage::Kind::model || individual) {
         const ModelPacket& model = message->model;
+        Bytes& meshes = tables[individual ? 1 : 0];
         if (model.meshes != meshes) written = write(model.meshes, MG_WEBSOCKET_OPCODE_BINARY);
         meshes = model.meshes;
         written = written && write(model.model, MG_WEBSOCKET_OPCODE_BINARY) && write(model.shown, MG_WEBSOCKET_OPCODE_TEXT);

@@ -28,7 +28,13 @@ TEST(Api, RequestsReadBackEqual) {
       ListProjects{}, OpenProject{.request = 7, .project = 3}, CreateProject{.name = "Ünïcode \"quoted\"\n", .sample = "tree"},
       Edit{.label = "Move", .gesture = "g1", .grammar = "grammar a 1", .scene = Scene{R"({"curves":{"curve":[]},"x":1.5})"}, .search = true},
       StartSearch{.seconds = 0.25, .onward = true, .from = StartSearchFrom::shown},
-      SetDraw{.gene = 4, .model = 9, .index = 1, .quantile = 0.125}};
+      SetDraw{.gene = 4, .model = 9, .index = 1, .quantile = 0.125},
+      StartBreeding{.settings = {.method = RoomSettingsMethod::classic, .strength = 0.5, .classic = GenesisKnobs{.window = 5}},
+                    .from = StartBreedingFrom::favourites, .seed = 7},
+      Rate{.ratings = {{.individual = 3, .rating = -2.5}, {.individual = 4}}, .gesture = "keys"},
+      SetGenes{.individual = 3, .draws = {{.gene = 1, .index = 2, .quantile = 1}}},
+      LockDraws{.draws = {{.path = "Tree/Branch[2]", .index = 1}}, .locked = true},
+      Blend{.parents = {1, 2, 3}, .weights = {1, 0.5, 0}, .keep = false}};
   for (const Request& request : requests) EXPECT_EQ(read(to_text(request)), request) << to_text(request);
 }
 
@@ -49,6 +55,10 @@ TEST(Api, BadRequestsNameThePlaceTheRuleAndTheValue) {
   EXPECT_EQ(error_of(R"({"kind":"edit","label":{}})"), "edit.label: must be a text, got {}");
   EXPECT_EQ(error_of(R"({"kind":"edit","label":"a","scene":[]})"), "edit.scene: must be an object, got []");
   EXPECT_THAT(error_of(R"({"kind":"edit","label":"a","scene":{"a":)" + std::string(100000, '[')), HasSubstr("deeper than 64"));
+  EXPECT_EQ(error_of(R"({"kind":"rate","ratings":[{"individual":1,"rating":1e9}]})"),
+            "rate.ratings[0].rating: must be -1000 .. 1000, got 1000000000.0");
+  EXPECT_EQ(error_of(R"({"kind":"start_breeding","from":"nothing","settings":{"population":200}})"),
+            "start_breeding.settings.population: must be 9 .. 20, got 200");
   EXPECT_THAT(error_of(R"({"kind":"edit","label":"a","request":"x"})"), HasSubstr("message.request: must be a number"));
 }
 

@@ -1,4 +1,5 @@
 #include "studio/store.h"
+#include "studio/breeding_store.h"
 
 #include <csignal>
 #include <fstream>
@@ -172,15 +173,22 @@ TEST_F(StoreTest, SettingsAreKeptAndOnlyTheOwnerMayRead) {
 TEST_F(StoreTest, FilesOfEarlierVersionsAreBroughtUpToDate) {
   const std::int64_t project = store_->create("a", {.grammar = "0"}, {});
   store_->add_favourite(project, {.score = 1, .genes = 3, .words = "w", .derivation = "{}"});
-  const char* const older[] = {"drop table setting; alter table favourite drop column picture; pragma user_version = 1",
-                               "alter table favourite drop column picture; pragma user_version = 2"};
-  for (const char* version : older) {
+  const std::string no_breeding =
+      "drop table breeding_change; drop table breeding_step; drop table breeding_comparison; drop table breeding_rating; "
+      "drop table breeding_lineage; drop table breeding_individual; drop table breeding_generation; drop table breeding_text; "
+      "drop table breeding_session; ";
+  const std::string older[] = {
+      no_breeding + "drop table setting; alter table favourite drop column picture; pragma user_version = 1",
+      no_breeding + "alter table favourite drop column picture; pragma user_version = 2",
+      no_breeding + "pragma user_version = 3"};
+  for (const std::string& version : older) {
     store_.reset();
-    Database(path()).run(version);
+    Database(path()).run(version.c_str());
     open();
     EXPECT_EQ(store_->open(project).state.grammar, "0");
     ASSERT_EQ(store_->favourites(project).size(), 1u);
     EXPECT_EQ(store_->favourites(project)[0].picture, "");
+    EXPECT_EQ(BreedingStore(*store_).list(project).size(), 0u);
     store_->add_favourite(project, {.score = 2, .genes = 1, .words = "", .derivation = "{}", .picture = "\xff\xd8\xff"});
     store_->remove_favourite(project, store_->favourites(project)[1].id);
     store_->set_setting("a", version);

@@ -45,6 +45,12 @@ export function applyMessage(state: State, message: Message): void {
       case "done":
       case "failed":
         break;
+      case "breedings":
+      case "breeding":
+      case "bred":
+      case "individual_genes":
+      case "lineage":
+        break;
       default:
         addLog(state, "warning", `The server sent a message that this page does not know: ${(message as { kind: string }).kind}.`);
     }
