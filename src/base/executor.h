@@ -18,9 +18,9 @@ class Executor {
   virtual void for_each(std::size_t n, const std::function<void(std::size_t index, int worker)>& task) = 0;
 };
 
-/// oneTBB with at most `threads` workers (0 = as many as the machine has cores).
+/// oneTBB with at most `threads` workers (0 = as many as the machine has cores). Plain threads under ThreadSanitizer.
 std::unique_ptr<Executor> make_tbb_executor(int threads);
-/// Plain threads; used where ThreadSanitizer must see everything.
+/// Plain threads, likewise.
 std::unique_ptr<Executor> make_thread_executor(int threads);
 /// No threads at all.
 std::unique_ptr<Executor> make_serial_executor();

@@ -57,8 +57,7 @@ void CurveFinder::prepare(const CubicBezier& curve) {
     const DVec3 here = point_at(curve, t);
     for (int axis = 0; axis < 3; ++axis) out.sample[axis][i] = static_cast<float>(here[axis]);
     for (const double end : {std::max(t - kStep / 2, 0.0), std::min(t + kStep / 2, 1.0)}) {
-      const double half = std::abs(end - t);
-      reach = std::max(reach, length(point_at(curve, end) - here) + greatest_gap(curve, t, end) * (half > 0));
+      reach = std::max(reach, length(point_at(curve, end) - here) + greatest_gap(curve, t, end));
     }
   }
   out.reach = static_cast<float>(reach + 1e-6 * largest);  // what floats may lose is put on top

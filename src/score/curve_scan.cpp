@@ -67,7 +67,8 @@ float dot(Xyz a, Xyz b) {
 }
 
 CurveHit hit_at(const CurveTable& curve, Xyz p, float t) {
-  const Xyz away = load(curve.power[0]) - p + t * (load(curve.power[1]) + t * (load(curve.power[2]) + t * load(curve.power[3])));
+  const Xyz away =
+      load(curve.power[0]) - p + t * (load(curve.power[1]) + t * (load(curve.power[2]) + t * load(curve.power[3])));
   return {t, dot(away, away)};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// CurveScan: the nearest points of several cubic Bézier curves, eight samples of a curve at a time. Internal to CurveFinder.
+// CurveScan: the nearest points of several cubic Bézier curves, eight samples of a curve at a time. Internal to
+// CurveFinder.
 
 #include <cstddef>
 

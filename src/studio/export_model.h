@@ -4,7 +4,7 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "studio/live_search.h"
+#include "studio/shown_model.h"
 #include "studio/web_server.h"
 
 namespace espalier::studio {

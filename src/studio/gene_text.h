@@ -3,7 +3,7 @@
 
 #include <studio_types.h>
 
-#include "studio/live_search.h"
+#include "studio/shown_model.h"
 
 namespace espalier::studio {
 

@@ -43,7 +43,7 @@ void read_files(const Json& list, NewProject& content) {
     content.state.files.push_back(std::move(file));
   }
   std::vector<StoredFile>& files = content.state.files;
-  std::sort(files.begin(), files.end(), [](const StoredFile& a, const StoredFile& b) { return a.path < b.path; });
+  sort_by_path(files);
   const auto twice = std::adjacent_find(files.begin(), files.end(),
                                         [](const StoredFile& a, const StoredFile& b) { return a.path == b.path; });
   if (twice != files.end()) throw Error(fmt::format("the project file has {} twice", twice->path));

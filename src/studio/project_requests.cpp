@@ -131,7 +131,7 @@ void ProjectSession::act(const WebSocketPtr&, const api::SetLock& set) {
 }
 
 void ProjectSession::act(const WebSocketPtr& socket, const api::AskReach& ask) {
-  reach_asked_[socket->number] = {socket, ask.rule};
+  reach_.ask(socket, ask.rule);
 }
 
 void ProjectSession::act(const WebSocketPtr&, const api::Format&) {

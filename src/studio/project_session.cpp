@@ -1,6 +1,5 @@
 #include "studio/project_session.h"
 
-#include <algorithm>
 #include <chrono>
 
 #include "base/error.h"
@@ -10,7 +9,6 @@ namespace espalier::studio {
 namespace {
 
 constexpr std::size_t kMostRecent = 12;   // models that requests may name
-constexpr double kReachTurn = 0.01;       // seconds
 constexpr auto kSaveEvery = std::chrono::milliseconds(700);
 
 template <class Message>
@@ -65,7 +63,7 @@ ProjectSession::~ProjectSession() {
 void ProjectSession::join(const WebSocketPtr& socket, std::optional<std::int64_t> request) {
   const bool taken = enqueue([this, socket, request] {
     send_document(&socket);
-    if (checked_revision_ >= 0) send_checked(&socket);
+    if (check_.done()) send_checked(&socket);
     {
       const std::lock_guard lock(mutex_);
       sockets_.push_back(socket);
@@ -117,8 +115,7 @@ void ProjectSession::add_file(const StoredFile& file, const std::string& bytes) 
       StoredState next = now_.state;
       std::erase_if(next.files, [&](const StoredFile& old) { return old.path == file.path; });
       next.files.push_back(file);
-      std::sort(next.files.begin(), next.files.end(),
-                [](const StoredFile& a, const StoredFile& b) { return a.path < b.path; });
+      sort_by_path(next.files);
       change(next, {.label = "Add " + file.path}, LiveStart::keep, {}, {{file.hash, bytes}});
       done->set_value();
     } catch (...) {
@@ -160,13 +157,13 @@ void ProjectSession::searched(const api::SearchState& state) {
 
 void ProjectSession::scene_problem(const std::string& text) {
   enqueue([this, text] {
-    setup_fault_ = text;
-    if (checked_revision_ >= 0) send_checked();
+    check_.set_setup_fault(text);
+    if (check_.done()) send_checked();
   });
 }
 
 void ProjectSession::noted(api::LogLevel level, const std::string& text) {
-  broadcast(to_text(api::Log{{}, level, text}));
+  send(to_text(api::Log{{}, level, text}));
 }
 
 // The session's thread.
@@ -219,85 +216,16 @@ void ProjectSession::save_shown() {
 }
 
 bool ProjectSession::do_idle_work() {
-  if (checked_revision_ != now_.revision) {
-    check();
-    send_checked();
-    if (reach_) {  // it is asked for again, of the new text
-      for (const WebSocketPtr& socket : reach_for_) reach_asked_.try_emplace(socket->number, socket, reach_->rule());
-      reach_.reset();
-    }
-    return true;
+  if (check_.revision() == now_.revision) {
+    return reach_.go_on(check_.graph(), [this] { return check_.readable_scene(now_.state); });
   }
-  if (!reach_ && !reach_asked_.empty() && text_.compiled.graph) {
-    // All who asked for one rule get one cloud.
-    const std::string rule = reach_asked_.begin()->second.second;
-    reach_for_.clear();
-    for (auto it = reach_asked_.begin(); it != reach_asked_.end();) {
-      if (it->second.second != rule) {
-        ++it;
-        continue;
-      }
-      reach_for_.push_back(it->second.first);
-      it = reach_asked_.erase(it);
-    }
-    Scene scene;
-    try {
-      scene = read_scene(now_.state.scene, {kGrammarName, "", text_.kinds}).scene;
-    } catch (const Error&) {  // its settings do not matter that much
-    }
-    reach_ = std::make_unique<Reach>(text_.compiled.graph, scene, rule);
-  }
-  if (!reach_) return false;
-  reach_->go_on(kReachTurn);
-  if (!reach_->done()) return true;
-  const Bytes cloud = std::make_shared<const std::string>(reach_->message());
-  for (const WebSocketPtr& socket : reach_for_) socket->out.push_cloud(cloud);
-  reach_.reset();
+  check_.check(now_.state, now_.revision, [this](const std::string& hash) { return store_.blob(project_, hash); });
+  send_checked();
+  reach_.restart();
   return true;
 }
 
-void ProjectSession::check() {
-  const StoredState& state = now_.state;
-  checked_revision_ = now_.revision;
-  const ReadBlob read = [this](const std::string& hash) { return store_.blob(project_, hash); };
-  // Kinds of attributes are known from the last good text; of new ones the next check knows.
-  std::map<std::string, std::string> values;
-  try {
-    values = attributes_of(state.scene, text_.kinds);
-  } catch (const Error&) {
-  }
-  const std::map<std::string, Kind> kinds_before = text_.kinds;
-  CheckedText text = check_text(state.grammar, values, import_reader(state.files, read));
-  if (text.compiled.checked && text.kinds != kinds_before) {
-    values = attributes_of(state.scene, text.kinds);
-    if (!values.empty()) text = check_text(state.grammar, values, import_reader(state.files, read));
-  }
-  if (!text.compiled.checked) text.kinds = kinds_before;
-  text_ = std::move(text);
-  if (text_.compiled.checked) attributes_ = text_.attributes;
-  scene_fault_.clear();
-  try {
-    read_scene(state.scene, {kGrammarName, "", text_.kinds});
-  } catch (const Error& error) {
-    scene_fault_ = error.what();
-  }
-}
-
-void ProjectSession::send_checked(const WebSocketPtr* only) {
-  api::Checked message;
-  message.revision = checked_revision_;
-  message.problems = text_.problems;
-  message.symbols = text_.symbols;
-  message.attributes = attributes_;
-  const std::string& fault = scene_fault_.empty() ? setup_fault_ : scene_fault_;
-  if (!fault.empty()) message.scene_problem = fault;
-  const std::string text = to_text(message);
-  if (only) {
-    (*only)->out.push_text(text);
-  } else {
-    broadcast(text);
-  }
-}
+void ProjectSession::send_checked(const WebSocketPtr* only) { send(to_text(check_.message()), only); }
 
 void ProjectSession::send_document(const WebSocketPtr* only) {
   api::Document document;
@@ -316,15 +244,11 @@ void ProjectSession::send_document(const WebSocketPtr* only) {
   for (const StoredFavourite& one : favourites_) document.favourites.push_back({one.id, one.score, one.genes, one.words});
   document.undo = now_.undo;
   document.redo = now_.redo;
-  const std::string text = to_text(document);
-  if (only) {
-    (*only)->out.push_text(text);
-  } else {
-    broadcast(text);
-  }
+  send(to_text(document), only);
 }
 
-void ProjectSession::broadcast(const std::string& text) {
+void ProjectSession::send(const std::string& text, const WebSocketPtr* only) {
+  if (only) return (*only)->out.push_text(text);
   const std::lock_guard lock(mutex_);
   for (const WebSocketPtr& socket : sockets_) socket->out.push_text(text);
 }

@@ -18,9 +18,9 @@
 
 #include <studio_types.h>
 
-#include "studio/grammar_check.h"
+#include "studio/document_check.h"
 #include "studio/live_search.h"
-#include "studio/reach.h"
+#include "studio/reach_queue.h"
 #include "studio/store.h"
 #include "studio/web_server.h"
 
@@ -61,9 +61,9 @@ class ProjectSession final : private LiveListener {
   void run();
   bool do_idle_work();
   void answer(const WebSocketPtr& socket, const api::Request& request, std::optional<std::int64_t> number);
-  void broadcast(const std::string& text);
+  /// To all pages, or to that one.
+  void send(const std::string& text, const WebSocketPtr* only = nullptr);
   void send_document(const WebSocketPtr* only = nullptr);
-  void check();
   void send_checked(const WebSocketPtr* only = nullptr);
   void save_shown();
 
@@ -97,14 +97,8 @@ class ProjectSession final : private LiveListener {
   // Of the session's thread alone.
   StoredProjectState now_;
   std::vector<StoredFavourite> favourites_;
-  std::int64_t checked_revision_ = -1;
-  api::Checked checked_;
-  CheckedText text_;
-  std::vector<api::Attribute> attributes_;  // of the last text without errors
-  std::string scene_fault_, setup_fault_;   // as the scene's reader says; as setting it up said
-  std::map<std::uint64_t, std::pair<WebSocketPtr, std::string>> reach_asked_;  // rule by socket
-  std::unique_ptr<Reach> reach_;
-  std::vector<WebSocketPtr> reach_for_;
+  DocumentCheck check_;
+  ReachQueue reach_;
 
   /// Guards all that follows.
   mutable std::mutex mutex_;

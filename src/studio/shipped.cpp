@@ -120,8 +120,7 @@ NewProject make_sample(const std::string& name) {
     project.state.files.push_back(describe_file(path, std::string(*bytes)));
     project.blobs[project.state.files.back().hash] = *bytes;
   }
-  std::sort(project.state.files.begin(), project.state.files.end(),
-            [](const StoredFile& a, const StoredFile& b) { return a.path < b.path; });
+  sort_by_path(project.state.files);
   project.state.scene = with_files(json, names);
   return project;
 }

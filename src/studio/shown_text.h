@@ -5,8 +5,8 @@
 
 #include "model/model.h"
 #include "score/target.h"
-#include "studio/live_search.h"
 #include "studio/model_message.h"
+#include "studio/shown_model.h"
 
 namespace espalier::studio {
 

@@ -123,6 +123,7 @@ class Store {
     std::string grammar, scene, files, gesture;  // hashes
   };
 
+  [[noreturn]] static void fail_no_project(std::int64_t project);
   void migrate();
   Head head(std::int64_t project);
   std::string text(std::int64_t project, const std::string& hash);
@@ -142,6 +143,8 @@ class Store {
   std::optional<Database> database_;
 };
 
+/// As a state has them.
+void sort_by_path(std::vector<StoredFile>& files);
 /// The list of a state's files as text, and back. Throws Error.
 std::string to_json(const std::vector<StoredFile>& files);
 std::vector<StoredFile> parse_files(std::string_view json);

@@ -105,11 +105,16 @@ void Studio::send_projects(const WebSocketPtr* only) {
   for (const auto& [number, socket] : sockets_) socket->out.push_text(text);
 }
 
+/// The session of an open project, or the end. Under the lock.
+std::vector<Studio::SessionPtr>::iterator Studio::find_open(std::int64_t project) {
+  return std::find_if(sessions_.begin(), sessions_.end(),
+                      [&](const SessionPtr& one) { return one->project() == project; });
+}
+
 Studio::SessionPtr Studio::session(std::int64_t project) {
   SessionPtr leaving;  // ends after the lock is given back
   const std::lock_guard lock(mutex_);
-  const auto found = std::find_if(sessions_.begin(), sessions_.end(),
-                                  [&](const SessionPtr& one) { return one->project() == project; });
+  const auto found = find_open(project);
   if (found != sessions_.end()) {
     std::rotate(found, found + 1, sessions_.end());
     return sessions_.back();
@@ -171,9 +176,7 @@ bool Studio::handle(const WebSocketPtr& socket, const api::Request& request, std
     SessionPtr open;
     {
       const std::lock_guard lock(mutex_);
-      for (const SessionPtr& one : sessions_) {
-        if (one->project() == rename->project) open = one;
-      }
+      if (const auto found = find_open(rename->project); found != sessions_.end()) open = *found;
     }
     if (open) open->renamed();
     send_projects();
@@ -189,9 +192,7 @@ bool Studio::handle(const WebSocketPtr& socket, const api::Request& request, std
     SessionPtr open;
     {
       const std::lock_guard lock(mutex_);
-      const auto found = std::find_if(sessions_.begin(), sessions_.end(),
-                                      [&](const SessionPtr& one) { return one->project() == remove->project; });
-      if (found != sessions_.end()) {
+      if (const auto found = find_open(remove->project); found != sessions_.end()) {
         open = std::move(*found);
         sessions_.erase(found);
         std::erase_if(where_, [&](const auto& place) { return place.second == open; });

@@ -41,6 +41,7 @@ class Studio final : public WebApp {
 
   void send_projects(const WebSocketPtr* only = nullptr);
   std::string projects_text(std::optional<std::int64_t> request);
+  std::vector<SessionPtr>::iterator find_open(std::int64_t project);
   SessionPtr session(std::int64_t project);
   SessionPtr session_of(const WebSocketPtr& socket);
   void put(const WebSocketPtr& socket, const SessionPtr& session, std::optional<std::int64_t> number);

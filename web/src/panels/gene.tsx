@@ -21,7 +21,7 @@ export function GenePanel() {
         <button type="button" class="text-button" onClick={jump} disabled={gene.at === undefined} title="Go to its rule">
           <Icon name="rule" />{gene.rule}
         </button>
-        <button type="button" class={gene.locked ? "button lock on" : "button lock"} aria-pressed={gene.locked} disabled={stale} onClick={() => void studio.setLock(!gene.locked)} title="Keep it with all that stands on it (L)">
+        <button type="button" class={gene.locked ? "button lock on" : "button lock"} aria-pressed={gene.locked} disabled={stale} onClick={() => void studio.genes.setLock(!gene.locked)} title="Keep it with all that stands on it (L)">
           <Icon name={gene.locked ? "lock" : "unlock"} />{gene.locked ? "Locked" : "Lock"}
         </button>
       </div>
@@ -47,7 +47,7 @@ function DrawRow({ draw, disabled }: { draw: Draw; disabled: boolean }) {
         title={draw.low === undefined ? draw.name : `${draw.name}: ${draw.low} to ${draw.high}`}
         onChange={(quantile, gesture) => {
           setHeld(quantile);
-          studio.setDraw(draw.index, quantile, gesture);
+          studio.genes.setDraw(draw.index, quantile, gesture);
         }}
       />
     </div>

@@ -14,10 +14,10 @@ export function ProjectsDialog() {
     state.dialog.value = null;
   };
   const [name, setName] = useState("");
-  const create = (sample?: string, title?: string) => void studio.createProject(name.trim() || title || "Untitled", sample);
+  const create = (sample?: string, title?: string) => void studio.projects.create(name.trim() || title || "Untitled", sample);
   const importFile = async () => {
     const file = await pickFile(".espalier");
-    if (file !== null) await studio.importProject(file);
+    if (file !== null) await studio.projects.import(file);
   };
   return (
     <Dialog title="Projects" kind="projects" onClose={close}>
@@ -70,7 +70,7 @@ function ProjectRow({ project, onOpened }: { project: ProjectInfo; onOpened(): v
   const [name, setName] = useState(project.name);
   const open = studio.document.value?.project.id === project.id;
   const openIt = async () => {
-    if (await studio.openProject(project.id)) onOpened();
+    if (await studio.projects.open(project.id)) onOpened();
   };
   if (mode === "rename") {
     const rename = () => {
@@ -111,7 +111,7 @@ function ProjectRow({ project, onOpened }: { project: ProjectInfo; onOpened(): v
         <span class="dim">{agoWords(Date.now() / 1000 - project.changed)}</span>
       </button>
       <button type="button" class="text-button" onClick={() => setMode("rename")} aria-label={`Rename ${project.name}`}>Rename</button>
-      <IconButton label={`Duplicate ${project.name}`} onClick={() => void studio.duplicateProject(project.id)}><Icon name="copy" /></IconButton>
+      <IconButton label={`Duplicate ${project.name}`} onClick={() => void studio.projects.duplicate(project.id)}><Icon name="copy" /></IconButton>
       <IconButton label={`Delete ${project.name}`} onClick={() => setMode("delete")}><Icon name="trash" /></IconButton>
     </li>
   );

@@ -25,18 +25,18 @@ export function SearchPanel() {
     <Panel id="search" title="Search" note={search?.running ? <span class="running">running</span> : ""}>
       <div class="search-buttons">
         {search?.running ? (
-          <button type="button" class="button primary" onClick={() => studio.stopSearch()} title="Stop (Space)"><Icon name="stop" />Stop</button>
+          <button type="button" class="button primary" onClick={() => studio.searching.stop()} title="Stop (Space)"><Icon name="stop" />Stop</button>
         ) : (
-          <button type="button" class="button primary" disabled={offline} onClick={() => studio.startSearch("new")} title="Start (Space)"><Icon name="play" />Start</button>
+          <button type="button" class="button primary" disabled={offline} onClick={() => studio.searching.start("new")} title="Start (Space)"><Icon name="play" />Start</button>
         )}
-        <button type="button" class="button" disabled={offline || search?.running || !search?.onward} onClick={() => studio.startSearch("onward")} title="Go on with the search that was stopped">
+        <button type="button" class="button" disabled={offline || search?.running || !search?.onward} onClick={() => studio.searching.start("onward")} title="Go on with the search that was stopped">
           <Icon name="onward" />Continue
         </button>
       </div>
       <SearchNumbers />
       {locked > 0 && <p class="hint">{locked === 1 ? "One gene is" : `${locked} genes are`} locked: the rest is searched again.</p>}
       <CheckField label="Live" value={studio.preferences.value.live} title="Search again after each change." onChange={(live) => studio.setPreferences({ live })} />
-      <Slider label="Time" unit="s" logarithmic min={0.05} max={60} value={studio.seconds()} title="Seconds that a search may take." onChange={setSeconds} />
+      <Slider label="Time" unit="s" logarithmic min={0.05} max={60} value={studio.searching.seconds()} title="Seconds that a search may take." onChange={setSeconds} />
       <ChoiceField
         label="Engine" value={engine} choices={ENGINES} names={ENGINE_NAMES}
         onChange={(next) => studio.setScene(`Engine ${next}`, changeEngine(studio.scene.value, next))}

@@ -76,13 +76,13 @@ export const SHORTCUTS: readonly Shortcut[] = [
   toggle("w", "field", "Field of directions"),
   toggle("t", "targets", "Targets"),
   toggle("h", "reach", "Where the rule under the cursor can reach"),
-  { key: " ", words: "Start or stop the search", group: "Search", run: (studio) => studio.toggleSearch() },
+  { key: " ", words: "Start or stop the search", group: "Search", run: (studio) => studio.searching.toggle() },
   { key: "k", words: "Keep the model as a favourite", group: "Search", run: (studio) => {
     if (studio.state.shown.value !== null) void studio.ask({ kind: "keep_favourite" });
   } },
   { key: "l", words: "Lock or free the selected gene", group: "Search", run: (studio) => {
     const gene = studio.state.gene.value;
-    if (gene !== null && studio.state.selection.value?.kind === "gene") void studio.setLock(!gene.locked);
+    if (gene !== null && studio.state.selection.value?.kind === "gene") void studio.genes.setLock(!gene.locked);
   } },
   { key: "s", mod: true, words: "Format the grammar (all is saved as you go)", group: "Grammar", everywhere: true, run: (studio) => studio.format() },
   { key: "F8", words: "Next problem", group: "Grammar" },

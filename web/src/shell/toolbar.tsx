@@ -53,7 +53,7 @@ function SearchButton() {
   return (
     <button
       type="button" class={running ? "button search-button on" : "button search-button"} disabled={offline} title={running ? "Stop the search (Space)" : "Search (Space)"}
-      onClick={() => studio.toggleSearch()}
+      onClick={() => studio.searching.toggle()}
     >
       <Icon name={running ? "stop" : "play"} />{running ? "Stop" : "Search"}
     </button>

@@ -1,18 +1,22 @@
 // What a person can do, and the state that it changes. One history for all: undo and redo are the server's.
-import { batch, computed, effect, type Signal } from "@preact/signals";
+import { batch, computed, type Signal } from "@preact/signals";
 import type { Camera, Curve, Document, Scene } from "../api";
 import { Connection, RequestFailed, type Ask, type Socket, type Status } from "../connection/connection";
 import { Files, freeName } from "../connection/files";
 import type { Look, ViewHost } from "../view/host";
 import { applyBinary, applyMessage } from "./apply_message";
 import { EditQueue } from "./edit_queue";
+import { Genes } from "./genes";
 import type { Preferences } from "./preferences";
+import { Projects } from "./projects";
 import {
   addSilhouette, changeSilhouette, countOf, curvesOf, duplicateTarget, FIRST_CURVE, removeTarget, sameCamera,
   silhouettesOf, withGuidedEngine, type TargetKind,
 } from "./scene";
+import { Searching } from "./searching";
 import { stable } from "./stable";
 import { addLog, newState, type TargetSelection } from "./state";
+import { watchReach } from "./watch_reach";
 
 export interface StudioOptions {
   openSocket(): Socket;
@@ -30,8 +34,6 @@ export interface StudioOptions {
 /** Milliseconds without a key before typed text is sent. */
 export const kTypingPause = 150;
 const kNoticeMilliseconds = 5000;
-/** What a search may take where the scene says nothing; the server's own default. */
-export const kSecondsDefault = 2;
 
 export class Studio implements ViewHost {
   readonly state = newState();
@@ -57,16 +59,15 @@ export class Studio implements ViewHost {
     return { parts, bones, field, targets, ground, dark: this.dark.value };
   });
 
-  private project: number | null;
-  private firstList = true;
+  readonly projects: Projects;
+  readonly searching = new Searching(this);
+  readonly genes = new Genes(this);
   private notices = 0;
-  private nextDraw: { index: number; quantile: number; gesture: string } | null = null;
-  private drawUnderWay = false;
 
   constructor(private readonly options: StudioOptions) {
     this.files = options.files;
     this.preferences = options.preferences;
-    this.project = options.firstProject;
+    this.projects = new Projects(this, options.firstProject, options.onProject);
     this.connection = new Connection({
       open: options.openSocket,
       later: options.later,
@@ -74,11 +75,8 @@ export class Studio implements ViewHost {
       onStatus: (status) => this.onStatus(status),
       onMessage: (message) => {
         applyMessage(this.state, message);
-        if (message.kind === "projects") this.onProjects();
-        if (message.kind === "document" && this.project !== message.project.id) {
-          this.project = message.project.id;
-          options.onProject(message.project.id);
-        }
+        if (message.kind === "projects") this.projects.onList();
+        if (message.kind === "document") this.projects.arrived(message.project.id);
       },
       onBinary: (kind, data) => applyBinary(this.state, kind, data),
       onNonsense: (text) => addLog(this.state, "warning", `The server sent ${text}.`),
@@ -95,24 +93,7 @@ export class Studio implements ViewHost {
   private onStatus(status: Status): void {
     this.state.status.value = status;
     if (status.kind !== "open") this.edits.pause();
-    else this.firstList = true;
-  }
-
-  /** The first list of a connection: opens the project that was open, the one of the address, or the newest. */
-  private onProjects(): void {
-    if (!this.firstList) return;
-    this.firstList = false;
-    const list = this.state.projects.value;
-    const newest = [...list].sort((a, b) => b.changed - a.changed)[0]?.id;
-    const id = list.some((project) => project.id === this.project) ? this.project! : newest;
-    if (this.state.confirmed.value !== null && id !== this.state.confirmed.value.project.id) {
-      this.edits.clear();
-      this.tell("The project that was open is not there any more.", true);
-    }
-    if (id === undefined) {
-      this.state.confirmed.value = null;
-      this.state.dialog.value = "projects";
-    } else void this.openProject(id);
+    else this.projects.expectList();
   }
 
   /** Sends a request; tells the person when it fails. */
@@ -127,7 +108,7 @@ export class Studio implements ViewHost {
   }
 
   /** After all edits that were made before it. */
-  private askAfterEdits(ask: Ask): Promise<boolean> {
+  askAfterEdits(ask: Ask): Promise<boolean> {
     this.edits.flush();
     return this.ask(ask);
   }
@@ -139,50 +120,6 @@ export class Studio implements ViewHost {
     this.options.later(kNoticeMilliseconds, () => {
       this.state.notices.value = this.state.notices.value.filter((notice) => notice.number !== number);
     });
-  }
-
-  // --- Projects ---------------------------------------------------------------------------------------------------------
-
-  async openProject(id: number): Promise<boolean> {
-    this.edits.flush();
-    const other = this.state.confirmed.value !== null && this.state.confirmed.value.project.id !== id;
-    if (other) this.edits.pause();
-    const opened = await this.ask({ kind: "open_project", project: id });
-    if (opened) {
-      if (other) this.edits.clear();
-      this.edits.resume();
-    } else if (this.state.status.value.kind === "open") {
-      if (other) this.edits.resume();
-      else this.state.dialog.value = "projects";
-    }
-    return opened;
-  }
-
-  async createProject(name: string, sample?: string): Promise<void> {
-    await this.openWhatAppears({ kind: "create_project", name, ...(sample === undefined ? {} : { sample }) });
-  }
-
-  async duplicateProject(id: number): Promise<void> {
-    await this.ask({ kind: "duplicate_project", project: id });
-  }
-
-  async importProject(file: Blob): Promise<void> {
-    try {
-      const id = await this.files.importProject(file);
-      if (await this.openProject(id)) this.state.dialog.value = null;
-    } catch (error) {
-      this.tell(`The project could not be imported: ${(error as Error).message}`, true);
-    }
-  }
-
-  private async openWhatAppears(ask: Ask): Promise<void> {
-    this.edits.flush();
-    const before = new Set(this.state.projects.value.map((project) => project.id));
-    if (!(await this.ask(ask))) return;
-    const made = this.state.projects.value.find((project) => !before.has(project.id));
-    if (made !== undefined && this.state.confirmed.value?.project.id !== made.id) await this.openProject(made.id);
-    else this.edits.resume();
-    this.state.dialog.value = null;
   }
 
   // --- Editing ----------------------------------------------------------------------------------------------------------
@@ -260,67 +197,6 @@ export class Studio implements ViewHost {
     this.preferences.value = { ...this.preferences.value, ...changes };
   }
 
-  // --- Search -----------------------------------------------------------------------------------------------------------
-
-  seconds(): number {
-    const seconds = this.scene.value["budget"]?.["seconds"];
-    return typeof seconds === "number" ? seconds : kSecondsDefault;
-  }
-
-  startSearch(how: "new" | "onward"): void {
-    const locked = (this.state.shown.value?.locked.length ?? 0) > 0;
-    const seconds = Math.min(86400, Math.max(0.01, this.seconds()));
-    void this.askAfterEdits(
-      how === "onward"
-        ? { kind: "start_search", seconds, onward: true }
-        : { kind: "start_search", seconds, from: locked ? "shown" : "nothing" },
-    );
-  }
-
-  stopSearch(): void {
-    void this.ask({ kind: "stop_search" });
-  }
-
-  toggleSearch(): void {
-    if (this.state.status.value.kind !== "open" || this.document.value === null) return;
-    if (this.state.search.value?.running) this.stopSearch();
-    else this.startSearch("new");
-  }
-
-  /** One is on its way at a time, because each makes a new model in which the gene has another number; then the newest. */
-  setDraw(index: number, quantile: number, gesture: string): void {
-    this.nextDraw = { index, quantile, gesture };
-    if (!this.drawUnderWay) void this.sendDraws();
-  }
-
-  private async sendDraws(): Promise<void> {
-    this.drawUnderWay = true;
-    for (let next = this.nextDraw; next !== null; next = this.nextDraw) {
-      this.nextDraw = null;
-      const gene = this.state.gene.value;
-      if (gene === null || !(await this.ask({ kind: "set_draw", gene: gene.gene, model: gene.model, ...next }))) break;
-    }
-    this.nextDraw = null;
-    this.drawUnderWay = false;
-  }
-
-  async setLock(locked: boolean): Promise<void> {
-    const gene = this.state.gene.value;
-    if (gene === null) return;
-    if (await this.ask({ kind: "set_lock", gene: gene.gene, model: gene.model, locked })) this.askGeneAgain();
-  }
-
-  /** The selected gene as it is in the model that is shown now, if it is still the same. */
-  private askGeneAgain(): void {
-    const { gene, shown, wantedPath, selection } = this.state;
-    const before = gene.peek();
-    const model = shown.peek()?.model;
-    if (before === null || model === undefined || selection.peek()?.kind !== "gene") return;
-    wantedPath.value = before.path;
-    // A model that is not there any more was followed by another, for which this is done again.
-    this.connection.request({ kind: "ask_gene", gene: before.gene, model }).catch(() => undefined);
-  }
-
   // --- What the view asks for -------------------------------------------------------------------------------------------
 
   edit(change: { label: string; gesture?: string; scene: Scene; search: boolean }): void {
@@ -373,34 +249,7 @@ export class Studio implements ViewHost {
 
   /** Keeps what follows from the state itself; call once. */
   watch(): () => void {
-    const stops = [
-      // A gene's number means nothing in another model.
-      effect(() => {
-        const model = this.state.shown.value?.model;
-        if (model !== undefined && this.state.gene.peek() !== null && this.state.gene.peek()!.model !== model) this.askGeneAgain();
-      }),
-      // Where the rule under the cursor can reach: asked when the cursor rests, and again when the grammar has changed.
-      this.watchReach(),
-    ];
+    const stops = [this.genes.watch(), watchReach(this, this.options.later)];
     return () => stops.forEach((stop) => stop());
-  }
-
-  private watchReach(): () => void {
-    let cancel: (() => void) | null = null;
-    return effect(() => {
-      const rule = this.preferences.value.reach ? this.state.cursorRule.value : null;
-      const checked = this.state.checked.value;
-      cancel?.();
-      cancel = null;
-      if (rule === null || checked === null) {
-        this.state.cloud.value = null;
-        return;
-      }
-      const known = checked.symbols.some((symbol) => symbol.kind === "rule" && symbol.name === rule);
-      if (!known || checked.problems.some((problem) => problem.severity === "error")) return;
-      cancel = this.options.later(kTypingPause, () => {
-        void this.connection.request({ kind: "ask_reach", rule }).catch(() => undefined);
-      });
-    });
   }
 }

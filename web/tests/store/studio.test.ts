@@ -32,7 +32,7 @@ describe("opening", () => {
 
   test("a project that was made is opened, whether or not the server does so itself", async () => {
     const bench = await new Bench().open();
-    const made = bench.studio.createProject("New", "bonsai");
+    const made = bench.studio.projects.create("New", "bonsai");
     bench.sayProjects(1, 2);
     await bench.answer("create_project");
     expect(bench.socket.sent.at(-1)).toMatchObject({ kind: "open_project", project: 2 });
@@ -228,7 +228,7 @@ describe("genes", () => {
     bench.socket.say(shownOf(3));
     bench.studio.select({ kind: "gene", gene: 4 });
     bench.socket.say(gene(3, 4));
-    void bench.studio.setLock(true);
+    void bench.studio.genes.setLock(true);
     await bench.answer("set_lock");
     expect(bench.socket.kinds().slice(-2)).toEqual(["set_lock", "ask_gene"]);
   });
@@ -237,7 +237,7 @@ describe("genes", () => {
     const bench = await new Bench().open();
     bench.socket.say(shownOf(3));
     bench.socket.say(gene(3, 4));
-    for (let i = 1; i <= 9; ++i) bench.studio.setDraw(0, i / 10, "g");
+    for (let i = 1; i <= 9; ++i) bench.studio.genes.setDraw(0, i / 10, "g");
     const draws = () => bench.socket.sent.filter((one) => one.kind === "set_draw");
     expect(draws()).toHaveLength(1);
     bench.socket.say(shownOf(4));
@@ -278,15 +278,15 @@ describe("the reach of the rule under the cursor", () => {
 describe("searching", () => {
   test("starts with the time of the scene, from the shown model where something is locked", async () => {
     const bench = await new Bench().open("g", { budget: { seconds: 0.5 } });
-    bench.studio.toggleSearch();
+    bench.studio.searching.toggle();
     expect(bench.socket.sent.at(-1)).toMatchObject({ kind: "start_search", seconds: 0.5, from: "nothing" });
     bench.socket.say(shownOf(1, { locked: [3] }));
-    bench.studio.startSearch("new");
+    bench.studio.searching.start("new");
     expect(bench.socket.sent.at(-1)).toMatchObject({ from: "shown" });
-    bench.studio.startSearch("onward");
+    bench.studio.searching.start("onward");
     expect(bench.socket.sent.at(-1)).toMatchObject({ onward: true });
     bench.socket.say({ kind: "search_state", running: true, engine: "ga", steps: 0, evaluations: 0, seconds: 0, rises: [], onward: false });
-    bench.studio.toggleSearch();
+    bench.studio.searching.toggle();
     expect(bench.socket.sent.at(-1)).toMatchObject({ kind: "stop_search" });
   });
 });
