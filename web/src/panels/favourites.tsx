@@ -3,13 +3,14 @@ import { IconButton } from "../controls/fields";
 import { showNumber } from "../controls/number";
 import { useStudio } from "../shell/studio_context";
 
-export function FavouritesStrip() {
+/** `keep`: what the button keeps, where it is not the model that is shown. */
+export function FavouritesStrip({ keep }: { keep?: { words: string; disabled: boolean; run(): void } }) {
   const studio = useStudio();
   const favourites = studio.document.value?.favourites ?? [];
   const nothing = studio.state.shown.value === null;
   return (
     <section class="favourites" aria-label="Favourites">
-      <button type="button" class="button" disabled={nothing} onClick={() => void studio.ask({ kind: "keep_favourite" })} title="Keep the model that is shown (K)">
+      <button type="button" class="button" disabled={keep?.disabled ?? nothing} onClick={keep?.run ?? (() => void studio.ask({ kind: "keep_favourite" }))} title={keep?.words ?? "Keep the model that is shown (K)"}>
         <Icon name="star" />Keep
       </button>
       {favourites.length === 0 && <span class="hint">Models that you keep stand here.</span>}
