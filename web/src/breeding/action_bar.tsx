@@ -37,7 +37,9 @@ function Diversity({ value }: { value: number }) {
   return (
     <div class="diversity" title={`Diversity ${Math.round(100 * value)} %: how different the models of this screen are. Newcomers and a wilder mutation raise it.`}>
       <span>Diversity</span>
-      <meter min={0} max={1} low={0.08} value={value} aria-label="Diversity" aria-valuetext={words}>{words}</meter>
+      <span class="diversity-track" role="meter" aria-label="Diversity" aria-valuemin={0} aria-valuemax={1} aria-valuenow={value} aria-valuetext={words}>
+        <span class={value < 0.08 ? "low" : ""} style={{ width: `${100 * value}%` }} />
+      </span>
       <span class="dim">{words}</span>
     </div>
   );

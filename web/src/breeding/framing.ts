@@ -13,16 +13,17 @@ export interface Span {
 
 export const kFov = 26 * Math.PI / 180;
 export const kElevation = 0.2;
-/** What is left free around it, and for the words below, as shares of the cell. */
-const kMargin = 1.07, kWords = 0.05;
+/** What is left free around it, and for the rating below, as shares of the cell. */
+const kMargin = 1.06, kWords = 0.13;
 
-/** The ground is part of it where the model stands on it or nearly so. */
-export function spanOf(box: Box): Span {
+/** The ground is part of it where the model stands on it or nearly so. `reach`: how far anything is from the axis at most; the
+ *  corners of the box where that is not known. */
+export function spanOf(box: Box, reach?: (x: number, z: number) => number): Span {
   if (isEmpty(box)) return { x: 0, z: 0, radius: 0.5, low: 0, high: 1 };
   const x = (box.min[0] + box.max[0]) / 2, z = (box.min[2] + box.max[2]) / 2;
   const height = box.max[1] - box.min[1];
   const low = box.min[1] > 0 && box.min[1] < 0.3 * height ? 0 : box.min[1];
-  return { x, z, radius: Math.max(Math.hypot(box.max[0] - x, box.max[2] - z), 1e-3), low, high: Math.max(box.max[1], low + 1e-3) };
+  return { x, z, radius: Math.max(reach?.(x, z) ?? Math.hypot(box.max[0] - x, box.max[2] - z), 1e-3), low, high: Math.max(box.max[1], low + 1e-3) };
 }
 
 /** One frame for all: as wide and high as the largest, each about its own axis. */
@@ -42,12 +43,14 @@ export interface Frame {
 
 /** `aspect` is width over height. The model is taken as an upright cylinder, which is what it is when it turns. */
 export function frameOf(span: Span, aspect: number, elevation = kElevation): Frame {
-  const half = (span.high - span.low) / 2, tan = Math.tan(kFov / 2);
-  const up = half * Math.cos(elevation) + span.radius * Math.abs(Math.sin(elevation));
-  const near = span.radius * Math.cos(elevation) + half * Math.abs(Math.sin(elevation));
-  // Of the far corners of a box hardly anything is there: a part of the depth in front is enough.
-  const distance = kMargin * Math.max(up / tan, span.radius / (tan * aspect)) + 0.55 * near;
-  return { height: (span.low + span.high) / 2 - kWords * 2 * half, distance };
+  const half = (span.high - span.low) / 2, tan = Math.tan(kFov / 2), cosine = Math.cos(elevation), sine = Math.abs(Math.sin(elevation));
+  // Below is the rim of the disc in front; crowns are seldom as wide at their top as in their middle.
+  const above = half * cosine + 0.4 * span.radius * sine, below = half * cosine + span.radius * sine;
+  const near = span.radius * cosine + half * sine;
+  const room = Math.max((above + below) / (2 * tan * (1 - kWords)), span.radius / (tan * aspect));
+  // Of what is nearest to the eye there is little: a part of the depth in front is enough.
+  const distance = kMargin * room + 0.5 * near;
+  return { height: (span.low + span.high) / 2 + (above - below) / (2 * cosine) - kWords * room * tan / cosine, distance };
 }
 
 export const tilted = (elevation: number, by: number): number => clamp(elevation + by, -0.2, 1.4);

@@ -38,7 +38,7 @@ export function IndividualExports({ id }: { id: number }) {
       </header>
       <p class="hint">A species pack: distinct relatives of {id} as GLB files, zipped.</p>
       <NumberField label="Relatives" value={count} min={1} max={200} whole={true} onChange={setCount} />
-      <NumberField label="Triangles at most" value={triangles} min={100} max={10_000_000} step={500} whole={true} onChange={setTriangles} />
+      <NumberField label="Triangles" title="Each has so many at most" value={triangles} min={100} max={10_000_000} step={500} whole={true} onChange={setTriangles} />
       <a class="button" href={studio.files.speciesUrl(project, session, id, count, triangles)} download><Icon name="tree" />Species pack of {count}</a>
     </section>
   );

@@ -25,9 +25,10 @@ export function ModelStage() {
   const element = useRef<HTMLDivElement>(null);
   const [size, setSize] = useState({ width: 0, height: 0 });
   useEffect(() => {
-    const measure = () => setSize({ width: element.current!.clientWidth, height: element.current!.clientHeight });
+    const stage = element.current!;
+    const measure = () => setSize({ width: stage.clientWidth, height: stage.clientHeight });
     const observer = new ResizeObserver(measure);
-    observer.observe(element.current!);
+    observer.observe(stage);
     measure();
     return () => observer.disconnect();
   }, []);

@@ -1,5 +1,5 @@
 // Above the models: which session and generation, how to rate, and how they are seen.
-import type { JSX } from "preact";
+import { Choice } from "../controls/choice";
 import { IconButton } from "../controls/fields";
 import { Icon } from "../controls/icons";
 import { useStudio } from "../shell/studio_context";
@@ -35,7 +35,7 @@ export function RoomBar() {
       <span class="dim">{breeding.individuals.length} models</span>
       <span class="cell-space" />
       {room.mayRate.value && (
-        <Choice label="Rate by" value={rateBy === "pairs" && close !== "pairs" ? "points" : rateBy} choices={kRateBy.map((by) => ({ value: by, ...kNames[by] }))} onChange={choose} />
+        <Choice label="Rate by" value={close === "pairs" ? "pairs" : rateBy === "pairs" ? "points" : rateBy} choices={kRateBy.map((by) => ({ value: by, ...kNames[by] }))} onChange={choose} />
       )}
       <span class="toolbar-group" role="group" aria-label="View">
         <IconButton label="One at a time, beside the grid" keys="O" pressed={close === "one"} onClick={() => room.toggleLook("one")}><Icon name="single" /></IconButton>
@@ -43,21 +43,5 @@ export function RoomBar() {
         <IconButton label={turns ? "Stand still" : "Turn"} keys="T" pressed={turns} onClick={() => toggleTurning(studio)}><Icon name="turn" /></IconButton>
       </span>
     </header>
-  );
-}
-
-/** One of a few, all in sight: radio buttons, with the keys of radio buttons. */
-export function Choice<T extends string>({ label, value, choices, onChange }: {
-  label: string; value: T; choices: readonly { value: T; name: string; words?: string }[]; onChange(value: T): void;
-}): JSX.Element {
-  return (
-    <span class="choice" role="radiogroup" aria-label={label}>
-      {choices.map((choice) => (
-        <label key={choice.value} class={choice.value === value ? "on" : ""} data-name={choice.name} title={choice.words}>
-          <input type="radio" class="unseen" name={label} checked={choice.value === value} onChange={() => onChange(choice.value)} onClick={() => choice.value === value && onChange(choice.value)} />
-          {choice.name}
-        </label>
-      ))}
-    </span>
   );
 }

@@ -58,9 +58,11 @@ export const ROOM_KEYS: readonly RoomKey[] = [
   { keys: ["y"], mod: true, words: "Redo", action: { do: "redo" }, everywhere: true, unlisted: true },
 ];
 
-/** Where the key was pressed: among the models, in a text, on something that has keys of its own, or elsewhere. */
-export type Where = "models" | "text" | "control" | "elsewhere";
-const kControls = new Set(["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "Enter", " "]);
+/** Where the key was pressed: in a text, on something that arrows move, on something that Enter presses, or elsewhere. */
+export type Where = "text" | "arrows" | "button" | "elsewhere";
+const kOwn: Record<Where, readonly string[]> = {
+  text: [], elsewhere: [], button: ["Enter", " "], arrows: ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "Enter", " "],
+};
 
 export function roomKeyFor(
   event: Pick<KeyboardEvent, "key" | "code" | "ctrlKey" | "metaKey" | "altKey" | "shiftKey">, where: Where, pairs: boolean,
@@ -69,7 +71,7 @@ export function roomKeyFor(
   const mod = event.ctrlKey || event.metaKey;
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
   // What a slider or a button understands itself is left to it.
-  if (where === "control" && !mod && kControls.has(key)) return null;
+  if (!mod && kOwn[where].includes(key)) return null;
   const found = ROOM_KEYS.find((one) =>
     one.keys.includes(key) && Boolean(one.mod) === mod && (!mod || Boolean(one.shift) === event.shiftKey) &&
     (where !== "text" || one.everywhere) && (!one.pairs || pairs));
@@ -78,7 +80,7 @@ export function roomKeyFor(
 
 export function whereOf(target: EventTarget | null | undefined, takesText: boolean): Where {
   if (takesText) return "text";
-  if (!(target instanceof HTMLElement)) return "elsewhere";
-  if (target.closest("[data-models]") !== null && !target.matches("button, a, input")) return "models";
-  return target.matches("button, a, input, summary, select, [role=tab], [role=menuitem], [role=slider], [role=separator]") ? "control" : "elsewhere";
+  if (!(target instanceof HTMLElement || target instanceof SVGElement)) return "elsewhere";
+  if (target.matches("input, [role=tab], [role=menuitem], [role=slider], [role=separator]")) return "arrows";
+  return target.matches("button, a, summary") ? "button" : "elsewhere";
 }

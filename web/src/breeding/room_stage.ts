@@ -2,7 +2,7 @@
 // machine is slow, a part of that, and the rest in the next frames.
 import { Color, PerspectiveCamera, SRGBColorSpace, Vector3, WebGLRenderer } from "three";
 import { MessageError, decodeMeshes, type MeshTable } from "../view/messages";
-import { kDark, kLight } from "../view/palette";
+import { hex, kDark, kLight, type Palette } from "../view/palette";
 import { openContext, type Opened } from "../view/stage";
 import { commonSpan, frameOf, kElevation, kFov, tilted, type Span } from "./framing";
 import type { Rect } from "./grid_layout";
@@ -20,7 +20,9 @@ const kTurn = 2 * Math.PI / 20;
 /** A frame that takes longer draws fewer models the next time, milliseconds. */
 const kSlow = 40, kQuick = 22;
 /** Between the models: the background of the page. */
-const kGapDark = new Color(0x17191c), kGapLight = new Color(0xe4e7ea);
+const kGapDark = new Color(0x17191c), kGapLight = new Color(0xdde1e5);
+/** Small pictures need more of a difference from what is around them than the one large view. */
+const kCellLight: Palette = { ...kLight, background: hex(0xf2f4f6), ground: hex(0xe2e6ea) };
 
 export class RoomStage {
   readonly element: HTMLCanvasElement;
@@ -97,7 +99,7 @@ export class RoomStage {
       this.guard(() => {
         if (before === undefined) {
           const drawn = new StandingModel(model, table);
-          drawn.setPalette(this.dark ? kDark : kLight, this.dark);
+          drawn.setPalette(this.dark ? kDark : kCellLight, this.dark);
           this.models.set(id, { drawn, message: model });
         } else {
           before.message = model;
@@ -119,7 +121,7 @@ export class RoomStage {
     this.dark = look.dark;
     this.oneScale = look.oneScale;
     this.turning = look.turning;
-    const palette = look.dark ? kDark : kLight;
+    const palette = look.dark ? kDark : kCellLight;
     for (const { drawn } of this.models.values()) drawn.setPalette(palette, look.dark);
     this.redraw();
   }
@@ -211,7 +213,7 @@ export class RoomStage {
     renderer.setScissor(0, 0, this.width, this.height);
     renderer.setClearColor(this.dark ? kGapDark : kGapLight, 1);
     renderer.clear();
-    renderer.setClearColor(new Color().setRGB(...(this.dark ? kDark : kLight).background, SRGBColorSpace), 1);
+    renderer.setClearColor(new Color().setRGB(...(this.dark ? kDark : kCellLight).background, SRGBColorSpace), 1);
   }
 
   private drawPlace({ individual, rect, large }: StagePlace, shared: Span | null): void {

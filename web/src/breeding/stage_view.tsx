@@ -13,6 +13,7 @@ export function StageView({ layout, large, small, width, height }: {
   const studio = useStudio();
   const element = useRef<HTMLDivElement>(null);
   const stage = useRef<RoomStage | null>(null);
+  const placed = useRef("");
   useEffect(() => {
     const made = RoomStage.open((text) => addLog(studio.state, "error", `A model cannot be shown: ${text}.`));
     if (made === null) return studio.tell("This browser has no WebGL 2: models cannot be shown.", true);
@@ -43,6 +44,9 @@ export function StageView({ layout, large, small, width, height }: {
       ...layout.grid.cells.map((rect, i) => ({ individual: small[i]!, rect, large: false })),
     ];
     stage.current?.resize(width, height);
+    const text = JSON.stringify(places);
+    if (text === placed.current) return;
+    placed.current = text;
     stage.current?.setPlaces(places);
   });
   const drag = useRef<{ x: number; y: number } | null>(null);

@@ -1,8 +1,9 @@
 // A model of the breeding room as it is drawn: its parts, as the view of the studio draws them, and the disc below them.
 import { Scene, Vector3 } from "three";
 import { contactPatch, kContactCells } from "../view/contact";
-import { decodeModel, MessageError, type MeshTable } from "../view/messages";
+import { decodeModel, kInstanceWords, MessageError, type MeshTable, type ModelMessage } from "../view/messages";
 import type { Palette } from "../view/palette";
+import { kProxy } from "../view/part_picker";
 import { Parts } from "../view/parts";
 import { isEmpty } from "../view/vec";
 import { Disc } from "./disc";
@@ -36,14 +37,35 @@ export class StandingModel {
     if (this.table !== table) this.parts.setMeshes(table);
     this.table = table;
     const box = this.parts.setModel(model, table);
-    this.span = spanOf(box);
+    this.span = spanOf(box, (x, z) => this.reach(model, x, z));
     this.disc.mesh.visible = !isEmpty(box);
     if (isEmpty(box)) return;
     contactPatch(model, this.parts.extents, box, scratch, this.disc.bytes);
     const { x, z, radius, low, high } = this.span;
     // What grows into the ground is hidden by it; what floats far above, or lies below, has its disc at its own foot.
     const ground = low <= 0 && high > 0 ? 0 : low;
-    this.disc.place(box, x, z, Math.max(radius * 1.08, 0.22 * (high - low)), ground);
+    this.disc.place(box, x, z, Math.max(radius * 0.94, 0.2 * (high - low)), ground);
+  }
+
+  /** How far parts are from an upright axis at most. */
+  private reach(model: ModelMessage, x: number, z: number): number {
+    const { floats: f, words } = model;
+    let most = 0;
+    for (let i = 0, w = 0; i < model.instances; ++i, w += kInstanceWords) {
+      if (words[w + 15] === kProxy) continue;
+      const { half, middle } = this.parts.extents[words[w + 14]! & 0xffff]!;
+      let dx = f[w + 9]! - x, dz = f[w + 11]! - z, rx = 0, rz = 0;
+      for (let k = 0; k < 3; ++k) {
+        const ax = f[w + 3 * k]!, az = f[w + 3 * k + 2]!;
+        dx += ax * middle[k]!;
+        dz += az * middle[k]!;
+        rx += Math.abs(ax) * half[k]!;
+        rz += Math.abs(az) * half[k]!;
+      }
+      const away = Math.hypot(Math.abs(dx) + rx, Math.abs(dz) + rz);
+      if (away > most && away < Infinity) most = away;
+    }
+    return most;
   }
 
   /** The light goes with the camera, so that models turn in it. */

@@ -10,9 +10,9 @@ import { SessionList } from "./session_list";
 
 type From = StartBreeding["from"];
 const kFrom: readonly { from: From; name: string; words: string }[] = [
-  { from: "nothing", name: "From nothing", words: "A first screen of different, sound models" },
-  { from: "shown", name: "From the shown model", words: "The model of the editor, and relatives of it" },
-  { from: "favourites", name: "From favourites", words: "What you kept, and relatives" },
+  { from: "nothing", name: "Nothing", words: "A first screen of different, sound models" },
+  { from: "shown", name: "The shown model", words: "The model of the editor, and relatives of it" },
+  { from: "favourites", name: "Favourites", words: "What you kept, and relatives" },
 ];
 const kMethods: readonly { method: Method; words: string }[] = [
   { method: "free", words: "For every grammar: mutation by a dial, copies of the best, newcomers, locks and taste." },
@@ -39,7 +39,7 @@ export function StartScreen() {
         <h2 id="start-title">Breed what you like</h2>
         <p class="hint">You see a screen of models, say which you like, and get their children. Nobody needs to know which parameter makes what.</p>
         <fieldset>
-          <legend>Begin</legend>
+          <legend>Begin with</legend>
           <div class="start-cards">
             {kFrom.map((one) => (
               <label key={one.from} class={from === one.from ? "start-card on" : "start-card"} data-impossible={possible[one.from] ? undefined : ""}>

@@ -1,4 +1,4 @@
-import { Choice } from "../breeding/room_bar";
+import { Choice } from "../controls/choice";
 import { IconButton } from "../controls/fields";
 import { Icon, type IconName } from "../controls/icons";
 import { ExportMenu } from "../panels/export_menu";
