@@ -25,6 +25,14 @@ void OutBox::push_cloud(Bytes cloud) {
   push(std::move(message));
 }
 
+void OutBox::push_individual(std::int64_t individual, ModelPacket model) {
+  OutMessage message;
+  message.kind = OutMessage::Kind::individual;
+  message.individual = individual;
+  message.model = std::move(model);
+  push(std::move(message));
+}
+
 void OutBox::push(OutMessage message) {
   const std::lock_guard lock(mutex_);
   if (closed_) return;
@@ -38,8 +46,15 @@ void OutBox::push(OutMessage message) {
       return;
     }
   } else {
-    const auto older = std::find_if(waiting_.begin(), waiting_.end(),
-                                    [&](const OutMessage& waiting) { return waiting.kind == message.kind; });
+    const auto is_older = [&](const OutMessage& waiting) {
+      return waiting.kind == message.kind && waiting.individual == message.individual;
+    };
+    auto older = std::find_if(waiting_.begin(), waiting_.end(), is_older);
+    const auto is_individual = [](const OutMessage& waiting) { return waiting.kind == OutMessage::Kind::individual; };
+    if (older == waiting_.end() && message.kind == OutMessage::Kind::individual &&
+        static_cast<std::size_t>(std::count_if(waiting_.begin(), waiting_.end(), is_individual)) >= kMostIndividuals) {
+      older = std::find_if(waiting_.begin(), waiting_.end(), is_individual);
+    }
     if (older != waiting_.end()) waiting_.erase(older);
   }
   waiting_.push_back(std::move(message));

@@ -1,6 +1,6 @@
 #pragma once
-// OutBox: what waits to be written to one page. Texts are never dropped; of models and clouds only the newest waits. Safe
-// to use from any thread.
+// OutBox: what waits to be written to one page. Texts are never dropped; of models and clouds only the newest waits, and so of
+// the models of each individual of the breeding room. Safe to use from any thread.
 
 #include <condition_variable>
 #include <cstdint>
@@ -21,20 +21,23 @@ struct ModelPacket {
 };
 
 struct OutMessage {
-  enum class Kind : std::uint8_t { text, model, cloud } kind = Kind::text;
+  enum class Kind : std::uint8_t { text, model, cloud, individual } kind = Kind::text;
   Bytes bytes;        // text, cloud
-  ModelPacket model;  // model
+  ModelPacket model;  // model, individual
+  std::int64_t individual = 0;
 };
 
 class OutBox {
  public:
   static constexpr std::size_t kMostTexts = 4000;
   static constexpr std::size_t kMostTextBytes = 64u << 20;
+  static constexpr std::size_t kMostIndividuals = 64;  // the oldest gives way
 
   /// A page that lets too many texts wait is given up: the box closes.
   void push_text(std::string text);
   void push_model(ModelPacket model);
   void push_cloud(Bytes cloud);
+  void push_individual(std::int64_t individual, ModelPacket model);
   /// Models and clouds that wait are of a project that the page has left.
   void forget_models();
 

@@ -15,6 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostGrammarBytes = 1'000'000, kMostSceneBytes = 1'000'000, kMostModelBytes = 16u << 20;
+constexpr std::size_t kMostPictureText = Store::kMostPictureBytes * 4 / 3 + 4;
 constexpr int kMostDepth = 80;
 
 std::string text_of(const Json& json, const char* key, std::size_t most) {
@@ -63,6 +64,7 @@ std::string project_file(const WholeProject& project) {
   for (const StoredFavourite& one : project.favourites) {
     json["favourites"].push_back({{"score", one.score}, {"genes", one.genes}, {"words", one.words},
                                   {"derivation", one.derivation}});
+    if (!one.picture.empty()) json["favourites"].back()["picture"] = encode_base64(one.picture);
   }
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -94,6 +96,7 @@ WholeProject parse_project_file(std::string_view text) {
     }
     project.favourites.push_back({0, item["score"], item["genes"].get<std::int64_t>(), text_of(item, "words", 10'000),
                                   text_of(item, "derivation", kMostModelBytes)});
+    if (item.contains("picture")) project.favourites.back().picture = decode_base64(text_of(item, "picture", kMostPictureText));
   }
   return project;
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/base64.h"
 #include "base/error.h"
 #include "derivation/encode.h"
 #include "grammar/formatter.h"
@@ -28,6 +29,7 @@ void ProjectSession::act(const WebSocketPtr&, const Other&) {
 
 void ProjectSession::answer(const WebSocketPtr& socket, const api::Request& request, std::optional<std::int64_t> number) {
   try {
+    if (is_breeding(request)) return send_to_room(socket, request, number);
     std::visit([&](const auto& asked) { act(socket, asked); }, request);
     socket->out.push_text(answer_text(api::Done{}, number));
   } catch (const std::exception& error) {
@@ -144,11 +146,15 @@ void ProjectSession::act(const WebSocketPtr&, const api::Format&) {
   change(next, {.label = "Format"}, LiveStart::keep);
 }
 
-void ProjectSession::act(const WebSocketPtr&, const api::KeepFavourite&) {
-  const ShownModelPtr model = shown();
+void ProjectSession::act(const WebSocketPtr&, const api::KeepFavourite& asked) {
+  const ShownModelPtr model = asked.model ? find_model(*asked.model) : shown();
   if (!model) throw Error("no model is shown");
   StoredFavourite favourite{0, model->score.value_or(0), static_cast<std::int64_t>(model->derivation.size()), model->words,
-                            model->encoded};
+                            model->encoded, decode_base64(asked.picture.value_or(""))};
+  keep(std::move(favourite));
+}
+
+void ProjectSession::keep(StoredFavourite favourite) {
   favourite.id = store_.add_favourite(project_, favourite);
   favourites_.push_back(std::move(favourite));
   send_document();

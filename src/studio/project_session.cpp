@@ -54,6 +54,7 @@ ProjectSession::~ProjectSession() {
   changed_.notify_all();
   thread_.join();
   live_.reset();
+  room_.reset();
   try {
     save_shown();
   } catch (const std::exception&) {  // the last second is lost
@@ -70,6 +71,7 @@ void ProjectSession::join(const WebSocketPtr& socket, std::optional<std::int64_t
       if (search_state_) socket->out.push_text(*search_state_);
       if (packet_.model) socket->out.push_model(packet_);
     }
+    send_breedings(socket);
     socket->out.push_text(answer_text(api::Done{}, request));
   });
   if (!taken) socket->out.push_text(failed("the project is busy", request));
@@ -85,6 +87,7 @@ void ProjectSession::renamed() {
 void ProjectSession::leave(const WebSocketPtr& socket) {
   const std::lock_guard lock(mutex_);
   std::erase(sockets_, socket);
+  if (room_) room_->leave(socket);
   if (sockets_.empty() && live_ && !end_) live_->stop();
 }
 
@@ -241,7 +244,7 @@ void ProjectSession::send_document(const WebSocketPtr* only) {
     }
     document.files.push_back(std::move(info));
   }
-  for (const StoredFavourite& one : favourites_) document.favourites.push_back({one.id, one.score, one.genes, one.words});
+  for (const StoredFavourite& one : favourites_) document.favourites.push_back({one.id, one.score, one.genes, one.words, !one.picture.empty()});
   document.undo = now_.undo;
   document.redo = now_.redo;
   send(to_text(document), only);
@@ -257,6 +260,7 @@ void ProjectSession::take_now(StoredProjectState now) {
   now_ = std::move(now);
   const std::lock_guard lock(mutex_);
   state_ = now_.state;
+  if (room_) room_->take(state_);
 }
 
 }  // namespace espalier::studio

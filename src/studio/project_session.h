@@ -1,6 +1,7 @@
 #pragma once
 // ProjectSession: an open project: its document, who looks at it, and the search that runs on it. Requests of all its
-// pages are done one after another on a thread of its own, and so is the checking; the search has another.
+// pages are done one after another on a thread of its own, and so is the checking; the search has another, and where people
+// breed, the breeding room.
 
 #include <atomic>
 #include <condition_variable>
@@ -18,6 +19,7 @@
 
 #include <studio_types.h>
 
+#include "studio/breeding_room.h"
 #include "studio/document_check.h"
 #include "studio/live_search.h"
 #include "studio/reach_queue.h"
@@ -26,7 +28,7 @@
 
 namespace espalier::studio {
 
-class ProjectSession final : private LiveListener {
+class ProjectSession final : private LiveListener, private RoomListener {
  public:
   static constexpr std::size_t kMostWaiting = 1000;  // requests
 
@@ -48,6 +50,8 @@ class ProjectSession final : private LiveListener {
   void add_file(const StoredFile& file, const std::string& bytes);
   StoredState state() const;
   ShownModelPtr shown() const;
+  /// Sessions of the breeding room have come from elsewhere.
+  void breedings_changed();
 
  private:
   using Task = std::function<void()>;
@@ -56,6 +60,13 @@ class ProjectSession final : private LiveListener {
   void searched(const api::SearchState& state) override;
   void scene_problem(const std::string& text) override;
   void noted(api::LogLevel level, const std::string& text) override;
+
+  void tell_project(const std::string& text) override;
+  void keep_bred(const WebSocketPtr& socket, const StoredFavourite& favourite, std::optional<std::int64_t> number) override;
+  void show_bred(const WebSocketPtr& socket, const std::string& derivation, std::optional<std::int64_t> number) override;
+  void answer_task(const WebSocketPtr& socket, std::optional<std::int64_t> number, Task task);
+  void send_to_room(const WebSocketPtr& socket, const api::Request& request, std::optional<std::int64_t> number);
+  void send_breedings(const WebSocketPtr& socket);
 
   bool enqueue(Task task);
   void run();
@@ -73,6 +84,7 @@ class ProjectSession final : private LiveListener {
   void moved(const std::optional<StoredMove>& move, const char* nothing);
   void take_now(StoredProjectState now);
   ShownModelPtr find_model(std::int64_t number) const;
+  void keep(StoredFavourite favourite);
   void show_by_hand(const std::string& label, const std::string& gesture, const std::string& derivation);
   void act(const WebSocketPtr& socket, const api::Edit& edit);
   void act(const WebSocketPtr& socket, const api::Undo&);
@@ -85,7 +97,7 @@ class ProjectSession final : private LiveListener {
   void act(const WebSocketPtr& socket, const api::SetLock& set);
   void act(const WebSocketPtr& socket, const api::AskReach& ask);
   void act(const WebSocketPtr& socket, const api::Format&);
-  void act(const WebSocketPtr& socket, const api::KeepFavourite&);
+  void act(const WebSocketPtr& socket, const api::KeepFavourite& keep);
   void act(const WebSocketPtr& socket, const api::DropFavourite& drop);
   void act(const WebSocketPtr& socket, const api::ShowFavourite& show);
   template <class Other>
@@ -111,6 +123,8 @@ class ProjectSession final : private LiveListener {
   ModelPacket packet_;                // of the newest
   std::optional<std::string> search_state_;
   bool unsaved_ = false;              // the newest is not in the store
+
+  std::unique_ptr<BreedingRoom> room_;  // once somebody breeds
 
   std::unique_ptr<LiveSearch> live_;
   std::thread thread_;

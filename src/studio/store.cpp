@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "studio/breeding_tables.h"
 
 namespace espalier::studio {
 namespace {
@@ -122,10 +123,11 @@ std::int64_t Store::duplicate(std::int64_t project) {
         "insert into blob select ?, hash, bytes from blob where project = ?",
         "insert into step select ?, number, label, gesture, search, grammar, scene, files, model_before, model_after "
         "from step where project = ?",
-        "insert into favourite (project, score, genes, words, derivation) select ?, score, genes, words, derivation "
-        "from favourite where project = ? order by id"}) {
+        "insert into favourite (project, score, genes, words, derivation, picture) "
+        "select ?, score, genes, words, derivation, picture from favourite where project = ? order by id"}) {
     database_->prepare(statement).bind(copy).bind(project).run();
   }
+  copy_breedings(*database_, project, copy);
   transaction.commit();
   return copy;
 }
@@ -146,6 +148,11 @@ StoredProjectState Store::open(std::int64_t project) {
 void Store::touch(std::int64_t project, std::int64_t number) {
   database_->prepare("update project set head = ?, changed = ?, revision = revision + 1 where id = ?")
       .bind(number).bind(now()).bind(project).run();
+}
+
+void Store::alone(const std::function<void(Database&)>& work) {
+  const std::lock_guard lock(mutex_);
+  work(*database_);
 }
 
 }  // namespace espalier::studio

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -72,6 +73,7 @@ struct StoredFavourite {
   std::int64_t genes = 0;
   std::string words;
   std::string derivation;  // JSON
+  std::string picture = {};  // bytes of a PNG, JPEG or WebP; "": none
 };
 
 class Store {
@@ -79,11 +81,12 @@ class Store {
   static constexpr int kMostSteps = 500;
   static constexpr std::size_t kMostProjects = 10'000;
   static constexpr std::size_t kMostFavourites = 1000;   // of a project
+  static constexpr std::size_t kMostPictureBytes = 32u << 10;  // of a favourite
   static constexpr std::size_t kMostFiles = 200;         // of a project
   static constexpr std::uint64_t kMostFileBytes = 64u << 20;
   static constexpr std::uint64_t kMostProjectBytes = 512u << 20;  // of files that some state names
   static constexpr std::uint64_t kMostHistoryBytes = 128u << 20;  // of texts; older steps go first
-  static constexpr int kVersion = 2;
+  static constexpr int kVersion = 4;
 
   /// Opens or makes the file, which only its owner may then read; older versions of it are brought up to date, newer ones
   /// refused. Throws Error, also where another server has it open. All calls throw Error where the disk fails; then nothing was changed.
@@ -111,7 +114,12 @@ class Store {
 
   std::vector<StoredFavourite> favourites(std::int64_t project);
   std::int64_t add_favourite(std::int64_t project, const StoredFavourite& favourite);
+  /// "" where it has none, or there is no such favourite.
+  std::string favourite_picture(std::int64_t project, std::int64_t favourite);
   void remove_favourite(std::int64_t project, std::int64_t favourite);
+
+  /// For tables of others (breeding_store.h): nobody else has the database meanwhile.
+  void alone(const std::function<void(Database&)>& work);
 
   /// What belongs to no project, by its name.
   std::optional<std::string> setting(const std::string& name);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "studio/picture_type.h"
 #include "studio/store.h"
 
 namespace espalier::studio {
@@ -21,9 +22,10 @@ void Store::set_shown(std::int64_t project, const std::string& derivation) {
 std::vector<StoredFavourite> Store::favourites(std::int64_t project) {
   const std::lock_guard lock(mutex_);
   std::vector<StoredFavourite> all;
-  Statement ask = database_->prepare("select id, score, genes, words, derivation from favourite where project = ? order by id");
+  Statement ask = database_->prepare("select id, score, genes, words, derivation, picture from favourite "
+                                     "where project = ? order by id");
   ask.bind(project);
-  while (ask.step()) all.push_back({ask.whole(0), ask.number(1), ask.whole(2), ask.text(3), ask.text(4)});
+  while (ask.step()) all.push_back({ask.whole(0), ask.number(1), ask.whole(2), ask.text(3), ask.text(4), ask.text(5)});
   return all;
 }
 
@@ -31,14 +33,24 @@ std::int64_t Store::add_favourite(std::int64_t project, const StoredFavourite& f
   if (favourites(project).size() >= kMostFavourites) {
     throw Error(fmt::format("a project has at most {} favourites", kMostFavourites));
   }
+  if (favourite.picture.size() > kMostPictureBytes || (!favourite.picture.empty() && picture_type(favourite.picture).empty())) {
+    throw Error(fmt::format("a favourite's picture must be a PNG, JPEG or WebP of at most {} bytes", kMostPictureBytes));
+  }
   const std::lock_guard lock(mutex_);
   Transaction transaction(*database_);
   head(project);
-  database_->prepare("insert into favourite (project, score, genes, words, derivation) values (?, ?, ?, ?, ?)")
-      .bind(project).bind(favourite.score).bind(favourite.genes).bind(favourite.words).bind_blob(favourite.derivation).run();
+  database_->prepare("insert into favourite (project, score, genes, words, derivation, picture) values (?, ?, ?, ?, ?, ?)")
+      .bind(project).bind(favourite.score).bind(favourite.genes).bind(favourite.words).bind_blob(favourite.derivation)
+      .bind_blob(favourite.picture).run();
   const std::int64_t id = database_->last_row();
   transaction.commit();
   return id;
+}
+
+std::string Store::favourite_picture(std::int64_t project, std::int64_t favourite) {
+  const std::lock_guard lock(mutex_);
+  Statement ask = database_->prepare("select picture from favourite where project = ? and id = ?");
+  return ask.bind(project).bind(favourite).step() ? ask.text(0) : "";
 }
 
 void Store::remove_favourite(std::int64_t project, std::int64_t favourite) {

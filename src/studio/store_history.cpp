@@ -1,6 +1,7 @@
 // The history of a project: steps, how they join, what is forgotten.
 #include <set>
 
+#include "studio/breeding_tables.h"
 #include "studio/store.h"
 
 namespace espalier::studio {
@@ -18,6 +19,9 @@ void Store::forget_blobs(std::int64_t project) {
   lists.bind(project);
   while (lists.step()) {
     for (const StoredFile& file : parse_files(text(project, lists.text(0)))) named.insert(file.hash);
+  }
+  for (const std::string& list : breeding_file_lists(*database_, project)) {
+    for (const StoredFile& file : parse_files(list)) named.insert(file.hash);
   }
   std::vector<std::string> unnamed;
   Statement ask = database_->prepare("select hash from blob where project = ?");

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "studio/breeding_tables.h"
 #include "studio/store.h"
 
 namespace espalier::studio {
@@ -33,6 +34,11 @@ create table setting (name text primary key, value text not null) without rowid;
 pragma user_version = 2;
 )";
 
+constexpr const char* kVersion3 = R"(
+alter table favourite add column picture blob not null default x'';
+pragma user_version = 3;
+)";
+
 }  // namespace
 
 void Store::migrate() {
@@ -47,7 +53,9 @@ void Store::migrate() {
   if (version == kVersion) return;
   Transaction transaction(*database_);
   if (version < 1) database_->run(kVersion1);
-  database_->run(kVersion2);
+  if (version < 2) database_->run(kVersion2);
+  if (version < 3) database_->run(kVersion3);
+  database_->run(kBreedingTables);
   transaction.commit();
 }
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "studio/export_model.h"
+#include "studio/picture_type.h"
 #include "studio/project_file.h"
 #include "studio/shipped.h"
 #include "studio/web_guard.h"
@@ -233,10 +234,16 @@ HttpResponse Studio::answer(const HttpRequest& request) {
 }
 
 HttpResponse Studio::answer_project(std::int64_t project, const HttpRequest& request, const std::string& rest) {
-  constexpr std::string_view kFiles = "files/", kExport = "export/";
+  constexpr std::string_view kFiles = "files/", kExport = "export/", kFavourites = "favourites/";
   if (rest.starts_with(kExport) && request.method == "GET") {
     const Turn turn(busy_);
     return export_project(project, rest.substr(kExport.size()));
+  }
+  if (rest.starts_with(kFavourites) && request.method == "GET") {
+    std::string number = rest.substr(kFavourites.size()) + "/";
+    std::string picture = store_.favourite_picture(project, take_number(number));
+    if (picture.empty()) return not_found();
+    return {200, std::string(picture_type(picture)), std::move(picture)};
   }
   if (!rest.starts_with(kFiles)) return not_found();
   const std::string path = rest.substr(kFiles.size());

@@ -2,9 +2,16 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <map>
 #include <mutex>
 #include <thread>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <civetweb.h>
 #include <fmt/format.h>
@@ -37,6 +44,18 @@ std::string reason_of(int status) {
     case 503: return "Service Unavailable";
     default: return "Error";
   }
+}
+
+/// Connects to a port of this machine, and says nothing.
+void knock(std::uint16_t port) {
+  const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (socket < 0) return;
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  (void)!connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof(address));
+  close(socket);
 }
 
 /// Of the query, "" where there is none.
@@ -83,11 +102,15 @@ class WebServer::Implementation {
   }
 
   ~Implementation() {
-    {
-      const std::lock_guard lock(mutex_);
-      for (auto& [connection, link] : links_) link->socket->out.close();
-    }
+    say_goodbye();
+    // The library looks only every two seconds whether it shall end, unless somebody knocks.
+    std::atomic<bool> stopped{false};
+    std::thread knocking([&] {
+      while (!stopped) knock(port_), std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    });
     mg_stop(context_);
+    stopped = true;
+    knocking.join();
     mg_exit_library();
   }
 
@@ -200,14 +223,16 @@ class WebServer::Implementation {
   }
 
   static void write_all(mg_connection* connection, WebSocket& socket) {
-    Bytes meshes;  // that the page has: projects count their tables each for itself
+    Bytes tables[2];  // that the page has, of the project's model and of the breeding room: projects count them each for itself
     const auto write = [&](const Bytes& bytes, int opcode) {
       return !bytes || mg_websocket_write(connection, opcode, bytes->data(), bytes->size()) > 0;
     };
     while (const std::optional<OutMessage> message = socket.out.take()) {
       bool written = true;
-      if (message->kind == OutMessage::Kind::model) {
+      const bool individual = message->kind == OutMessage::Kind::individual;
+      if (message->kind == OutMessage::Kind::model || individual) {
         const ModelPacket& model = message->model;
+        Bytes& meshes = tables[individual ? 1 : 0];
         if (model.meshes != meshes) written = write(model.meshes, MG_WEBSOCKET_OPCODE_BINARY);
         meshes = model.meshes;
         written = written && write(model.model, MG_WEBSOCKET_OPCODE_BINARY) && write(model.shown, MG_WEBSOCKET_OPCODE_TEXT);
@@ -219,6 +244,14 @@ class WebServer::Implementation {
     }
     socket.out.close();
     mg_websocket_write(connection, MG_WEBSOCKET_OPCODE_CONNECTION_CLOSE, nullptr, 0);
+  }
+
+  /// Tells all pages that this is the end, and waits a moment for them to go: once it is stopped, the library writes no
+  /// more, and then those that stayed are found out only within two seconds.
+  void say_goodbye() {
+    std::unique_lock lock(mutex_);
+    for (auto& [connection, link] : links_) link->socket->out.close();
+    left_.wait_for(lock, std::chrono::milliseconds(200), [&] { return links_.empty(); });
   }
 
   /// False: the connection is to be closed.
@@ -252,6 +285,7 @@ class WebServer::Implementation {
       if (found == links_.end()) return;
       link = std::move(found->second);
       links_.erase(found);
+      left_.notify_all();
     }
     link->socket->out.close();
     if (link->writer.joinable()) link->writer.join();
@@ -264,6 +298,7 @@ class WebServer::Implementation {
   std::atomic<std::uint16_t> port_{0};
   std::atomic<bool> open_{false};
   mutable std::mutex mutex_;
+  std::condition_variable left_;
   std::map<const mg_connection*, std::unique_ptr<Link>> links_;
   std::uint64_t numbers_ = 0;
 };

@@ -1,4 +1,5 @@
 #include "studio/store.h"
+#include "studio/breeding_store.h"
 
 #include <csignal>
 #include <fstream>
@@ -43,11 +44,14 @@ TEST_F(StoreTest, ProjectsAreMadeNamedCopiedAndDeleted) {
   EXPECT_EQ(store_->open(two).project.name, "Tree 2");
   store_->rename(two, "Bush");
   edit(one, "b");
-  store_->add_favourite(one, {.score = 1.5, .genes = 3, .words = "w", .derivation = "{}"});
+  const std::string picture = "\xff\xd8\xff bytes";
+  store_->add_favourite(one, {.score = 1.5, .genes = 3, .words = "w", .derivation = "{}", .picture = picture});
   const std::int64_t three = store_->duplicate(one);
   EXPECT_EQ(store_->open(three).project.name, "Tree copy");
   EXPECT_EQ(store_->open(three).state, store_->open(one).state);
-  EXPECT_EQ(store_->favourites(three).size(), 1u);
+  ASSERT_EQ(store_->favourites(three).size(), 1u);
+  EXPECT_EQ(store_->favourite_picture(three, store_->favourites(three)[0].id), picture);
+  EXPECT_EQ(store_->favourite_picture(one, store_->favourites(three)[0].id), "");  // of another project
   edit(three, "c");
   EXPECT_EQ(store_->open(one).state.grammar, "b");
   store_->remove(one);
@@ -166,18 +170,31 @@ TEST_F(StoreTest, SettingsAreKeptAndOnlyTheOwnerMayRead) {
   EXPECT_EQ(store_->setting("b"), "3");
 }
 
-TEST_F(StoreTest, AFileOfTheFirstVersionIsBroughtUpToDate) {
+TEST_F(StoreTest, FilesOfEarlierVersionsAreBroughtUpToDate) {
   const std::int64_t project = store_->create("a", {.grammar = "0"}, {});
-  store_.reset();
-  {
-    Database database(path());
-    database.run("drop table setting; pragma user_version = 1");
+  store_->add_favourite(project, {.score = 1, .genes = 3, .words = "w", .derivation = "{}"});
+  const std::string no_breeding =
+      "drop table breeding_change; drop table breeding_step; drop table breeding_comparison; drop table breeding_rating; "
+      "drop table breeding_lineage; drop table breeding_individual; drop table breeding_generation; drop table breeding_text; "
+      "drop table breeding_session; ";
+  const std::string older[] = {
+      no_breeding + "drop table setting; alter table favourite drop column picture; pragma user_version = 1",
+      no_breeding + "alter table favourite drop column picture; pragma user_version = 2",
+      no_breeding + "pragma user_version = 3"};
+  for (const std::string& version : older) {
+    store_.reset();
+    Database(path()).run(version.c_str());
+    open();
+    EXPECT_EQ(store_->open(project).state.grammar, "0");
+    ASSERT_EQ(store_->favourites(project).size(), 1u);
+    EXPECT_EQ(store_->favourites(project)[0].picture, "");
+    EXPECT_EQ(BreedingStore(*store_).list(project).size(), 0u);
+    store_->add_favourite(project, {.score = 2, .genes = 1, .words = "", .derivation = "{}", .picture = "\xff\xd8\xff"});
+    store_->remove_favourite(project, store_->favourites(project)[1].id);
+    store_->set_setting("a", version);
+    open();
+    EXPECT_EQ(store_->setting("a"), version);
   }
-  open();
-  EXPECT_EQ(store_->open(project).state.grammar, "0");
-  store_->set_setting("a", "1");
-  open();
-  EXPECT_EQ(store_->setting("a"), "1");
 }
 
 /// Edits as fast as it can and says each number once its edit is done, until it is killed.

@@ -465,12 +465,41 @@ TEST_F(StudioTest, ExportsAreRunAndReproduced) {
   EXPECT_EQ(run(program + "reproduce out/my-tree/best.derivation.json"), 0) << read_file(folder_.file("log.txt"));
 }
 
+/// Of the picture of the newest favourite.
+std::string favourite_path(const json& document) {
+  return "GET /projects/" + document["project"]["id"].dump() + "/favourites/" + document["favourites"].back()["id"].dump();
+}
+
+TEST_F(StudioTest, FavouritesHavePictures) {
+  Page page = this->page();
+  page.ask("create_project", {{"name", "a"}, {"sample", "spaceship"}});
+  ASSERT_TRUE(page.wait_for("shown"));
+  page.ask("stop_search");
+  const json model = page.seen["shown"]["model"];
+  EXPECT_EQ(page.ask("keep_favourite"), "");
+  EXPECT_EQ(page.seen["document"]["favourites"][0]["picture"], false);
+  EXPECT_EQ(http(favourite_path(page.seen["document"])).status, 404);
+  const std::string picture = std::string("RIFF\4\0\0\0WEBP", 12) + "bytes";
+  EXPECT_EQ(page.ask("keep_favourite", {{"model", model}, {"picture", encode_base64(picture)}}), "");
+  EXPECT_EQ(page.seen["document"]["favourites"][1]["picture"], true);
+  const Answer got = http(favourite_path(page.seen["document"]));
+  EXPECT_EQ(got.body, picture);
+  EXPECT_THAT(got.head, HasSubstr("Content-Type: image/webp"));
+  EXPECT_THAT(page.ask("keep_favourite", {{"model", 9999}}), HasSubstr("not shown any more"));
+  EXPECT_THAT(page.ask("keep_favourite", {{"picture", "????"}}), HasSubstr("base64"));
+  EXPECT_THAT(page.ask("keep_favourite", {{"picture", encode_base64("<svg onload=..>")}}), HasSubstr("must be a PNG"));
+  EXPECT_THAT(page.ask("keep_favourite", {{"picture", encode_base64(picture + std::string(32u << 10, 'x'))}}),
+              HasSubstr("at most"));
+  EXPECT_EQ(page.seen["document"]["favourites"].size(), 2u);
+}
+
 TEST_F(StudioTest, ProjectsGoOutAndInAsOneFile) {
   Page page = this->page();
   page.ask("create_project", {{"name", "a"}, {"sample", "spaceship"}});
   ASSERT_TRUE(page.wait_for("shown"));
   page.ask("stop_search");
-  page.ask("keep_favourite");
+  const std::string picture = "\x89PNG\r\n\x1a\n and so on";
+  EXPECT_EQ(page.ask("keep_favourite", {{"model", page.seen["shown"]["model"]}, {"picture", encode_base64(picture)}}), "");
   const std::string whole = http("GET /projects/" + page.seen["document"]["project"]["id"].dump() + "/export/espalier").body;
   const Answer taken = http("POST /projects/import", whole);
   ASSERT_EQ(taken.status, 200) << taken.body;
@@ -478,6 +507,7 @@ TEST_F(StudioTest, ProjectsGoOutAndInAsOneFile) {
   EXPECT_EQ(page.ask("open_project", {{"project", std::stoi(taken.body)}}), "");
   for (const char* key : {"grammar", "scene", "files"}) EXPECT_EQ(page.seen["document"][key], before[key]) << key;
   EXPECT_EQ(page.seen["document"]["favourites"].size(), 1u);
+  EXPECT_EQ(http(favourite_path(page.seen["document"])).body, picture);
   EXPECT_EQ(page.seen["document"]["project"]["name"], "a 2");
 
   json damaged = json::parse(whole);

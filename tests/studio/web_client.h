@@ -155,6 +155,7 @@ class WebSocketClient {
         for (const char byte : *bytes) size = size << 8 | static_cast<unsigned char>(byte);
       }
       auto bytes = connection_.read(size);
+      if (bytes && opcode == 8) send_frame("", 8), hang_up();  // as browsers do
       if (!bytes || opcode == 8) return std::nullopt;
       if (opcode == 1 || opcode == 2) return Message{opcode == 2, std::move(*bytes)};
     }

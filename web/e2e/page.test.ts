@@ -237,6 +237,18 @@ describe("panels", () => {
     await page.locator(".view-element").focus();
     await page.keyboard.press("k");
     await page.locator(".favourite").click();
+    // The picture is one of parts before nothing.
+    const seen = await page.locator(".favourite img").evaluate(async (image: HTMLImageElement) => {
+      await image.decode();
+      const canvas = document.createElement("canvas");
+      [canvas.width, canvas.height] = [image.naturalWidth, image.naturalHeight];
+      const paper = canvas.getContext("2d")!;
+      paper.drawImage(image, 0, 0);
+      const alphas = paper.getImageData(0, 0, canvas.width, canvas.height).data.filter((_, i) => i % 4 === 3);
+      return { width: canvas.width, height: canvas.height, solid: alphas.filter((a) => a > 250).length / alphas.length, clear: alphas[0] };
+    });
+    expect(seen).toMatchObject({ width: 192, height: 144, clear: 0 });
+    expect(seen.solid).toBeGreaterThan(0.01);
     await page.getByRole("button", { name: /Drop favourite/ }).click();
     await page.locator(".favourite").waitFor({ state: "detached" });
     expect(server.received.map((one) => one.kind)).toEqual(expect.arrayContaining(["keep_favourite", "show_favourite", "drop_favourite"]));

@@ -28,6 +28,7 @@ export class MockServer {
   private server = createServer((request, response) => this.http(request, response));
   private port = 0;
   private models = 0;
+  private favourites = 0;
   private locked = new Set<number>();
   private search: SearchState = { kind: "search_state", running: false, engine: "guided", steps: 0, evaluations: 0, seconds: 0, rises: [], onward: false };
   private timer: ReturnType<typeof setInterval> | null = null;
@@ -94,6 +95,9 @@ export class MockServer {
       const name = bred[1]!.replace(/\//g, "-");
       return void response.writeHead(200, { "Content-Type": "application/octet-stream", "Content-Disposition": `attachment; filename="${name}"` }).end(name);
     }
+    const favourite = /^\/projects\/(\d+)\/favourites\/(\d+)$/.exec(url.pathname);
+    const picture = favourite && this.projects.find((one) => one.id === Number(favourite[1]))?.pictures.get(Number(favourite[2]));
+    if (picture) return void response.writeHead(200, { "Content-Type": "image/webp" }).end(picture);
     if (file !== null || url.pathname.includes("/export/")) return void response.writeHead(404).end();
     const path = normalize(url.pathname === "/" ? "/index.html" : url.pathname);
     const full = join(kPage, path);
@@ -227,7 +231,9 @@ export class MockServer {
     const bred = this.room.handle(message, this.voices.get(socket)!, (said) => [...this.sockets.keys()].forEach((one) => this.say(one, said)));
     if (bred !== null && bred !== "") return failed(bred);
     if (message.kind === "keep_individual") {
-      project.favourites = [...project.favourites, { id: Date.now(), score: 0, genes: 2, words: `from the breeding room: ${message.individual}` }];
+      const id = Date.now(), picture = message.picture !== undefined;
+      if (message.picture !== undefined) project.pictures.set(id, Buffer.from(message.picture, "base64"));
+      project.favourites = [...project.favourites, { id, score: 0, genes: 2, words: `from the breeding room: ${message.individual}`, picture }];
       project.touch();
       this.broadcast(project);
     }
@@ -265,7 +271,8 @@ export class MockServer {
         this.show(project);
         return done();
       case "keep_favourite":
-        project.favourites = [...project.favourites, { id: Date.now(), score: 31931.75, genes: 14, words: "all of 2 curves" }];
+        project.favourites = [...project.favourites, { id: ++this.favourites, score: 31931.75, genes: 14, words: "all of 2 curves", picture: message.picture !== undefined }];
+        if (message.picture !== undefined) project.pictures.set(this.favourites, Buffer.from(message.picture, "base64"));
         project.touch();
         this.broadcast(project);
         return done();

@@ -2,6 +2,7 @@
 import { batch, computed, effect, signal } from "@preact/signals";
 import type { BredGene, BredIndividual, DrawPlace, DrawSetting, Rating, RoomSettings, StartBreeding } from "../api";
 import type { Ask } from "../connection/connection";
+import { base64Of } from "../panels/keep_favourite";
 import type { Studio } from "../store/studio";
 import { applyRoomBinary, applyRoomMessage, type RoomMessage } from "./apply_room";
 import { nudged } from "./barycentric";
@@ -31,6 +32,8 @@ export class Room {
   readonly still = signal(typeof matchMedia === "function" && matchMedia("(prefers-reduced-motion: reduce)").matches);
   /** Of the grid as it stands: what the keys up and down step by. */
   columns = 1;
+  /** A small picture of an individual; there where models are drawn. */
+  portrait: ((id: number) => Promise<Blob | null>) | null = null;
   /** The session to be in, over lost connections too. */
   private wanted: number | null = null;
   private inside = false;
@@ -235,7 +238,9 @@ export class Room {
   }
 
   async keep(id: number): Promise<void> {
-    if (await this.ask({ kind: "keep_individual", individual: id })) this.studio.tell(`${id} is a favourite of the project now.`);
+    const image = (await this.portrait?.(id)) ?? null;
+    const picture = image === null ? {} : { picture: await base64Of(image) };
+    if (await this.ask({ kind: "keep_individual", individual: id, ...picture })) this.studio.tell(`${id} is a favourite of the project now.`);
   }
 
   async show(id: number): Promise<void> {

@@ -17,7 +17,8 @@ const kTabs: readonly { tab: RoomTab; name: string }[] = [
 ];
 
 export function RoomPage() {
-  const { room } = useStudio();
+  const studio = useStudio();
+  const { room } = studio;
   if (room.state.breeding.value === null || room.state.choosing.value) return <div class="room room-start"><StartScreen /></div>;
   const id = room.state.selected.value;
   return (
@@ -28,7 +29,7 @@ export function RoomPage() {
         <ActionBar />
         <footer class="room-foot">
           <HistoryStrip />
-          <FavouritesStrip keep={{ words: "Keep the selected model (K)", disabled: id === null, run: () => id !== null && void room.keep(id) }} />
+          <FavouritesStrip keep={{ words: "Keep the selected model (K)", disabled: id === null, run: () => id !== null && void room.keep(id), shown: () => studio.tell("The editor shows this favourite now.") }} />
         </footer>
       </main>
       <aside class="room-side" aria-label="Details">

@@ -1,8 +1,9 @@
 // All models of a screen on one canvas: one drawing context, a viewport for each. A frame draws what turned or changed; where the
 // machine is slow, a part of that, and the rest in the next frames.
-import { Color, PerspectiveCamera, SRGBColorSpace, Vector3, WebGLRenderer } from "three";
+import { Color, PerspectiveCamera, SRGBColorSpace, Vector3, WebGLRenderer, WebGLRenderTarget } from "three";
 import { MessageError, decodeMeshes, type MeshTable } from "../view/messages";
 import { hex, kDark, kLight, type Palette } from "../view/palette";
+import { encodePortrait, kPortraitHeight, kPortraitScale, kPortraitWidth } from "../view/portrait";
 import { openContext, type Opened } from "../view/stage";
 import { commonSpan, frameOf, kElevation, kFov, tilted, type Span } from "./framing";
 import type { Rect } from "./grid_layout";
@@ -132,6 +133,27 @@ export class RoomStage {
     this.elevation = tilted(this.elevation, elevation);
     this.places.forEach((place, i) => place.large && this.stale.add(i));
     this.wake();
+  }
+
+  /** The model alone, small, as it is seen at the moment; null where there is nothing to be seen. */
+  async portrait(individual: number): Promise<Blob | null> {
+    const model = this.models.get(individual)?.drawn;
+    if (model === undefined) return null;
+    const { renderer } = this, width = kPortraitScale * kPortraitWidth, height = kPortraitScale * kPortraitHeight;
+    const target = new WebGLRenderTarget(width, height, { generateMipmaps: false });
+    const bytes = new Uint8ClampedArray(4 * width * height);
+    const before = renderer.getClearColor(new Color());
+    this.aim(model.span, null, width / height, this.azimuth, kElevation);
+    model.light(this.azimuth);
+    renderer.setClearColor(0, 0);
+    renderer.setRenderTarget(target);
+    renderer.clear();
+    model.withoutDisc(() => renderer.render(model.scene, this.camera));
+    renderer.readRenderTargetPixels(target, 0, 0, width, height, bytes);
+    renderer.setRenderTarget(null);
+    renderer.setClearColor(before, 1);
+    target.dispose();
+    return encodePortrait(bytes, width, height);
   }
 
   dispose(): void {

@@ -18,6 +18,7 @@ export function StageView({ layout, large, small, width, height }: {
     const made = RoomStage.open((text) => addLog(studio.state, "error", `A model cannot be shown: ${text}.`));
     if (made === null) return studio.tell("This browser has no WebGL 2: models cannot be shown.", true);
     stage.current = made;
+    studio.room.portrait = (id) => made.portrait(id);
     made.element.setAttribute("aria-hidden", "true");
     element.current!.append(made.element);
     const stops = [
@@ -33,6 +34,7 @@ export function StageView({ layout, large, small, width, height }: {
     ];
     return () => {
       stops.forEach((stop) => stop());
+      studio.room.portrait = null;
       made.dispose();
       stage.current = null;
     };

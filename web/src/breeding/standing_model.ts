@@ -74,6 +74,13 @@ export class StandingModel {
     this.key.set(kKey.x * c + kKey.z * s, kKey.y, kKey.z * c - kKey.x * s);
   }
 
+  withoutDisc(draw: () => void): void {
+    const { mesh } = this.disc, before = mesh.visible;
+    mesh.visible = false;
+    draw();
+    mesh.visible = before;
+  }
+
   setPalette(palette: Palette, dark: boolean): void {
     this.disc.setPalette(palette, dark);
     this.parts.uniform("uLight", dark ? 0.95 : 1.04);

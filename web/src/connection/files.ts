@@ -15,6 +15,10 @@ export class Files {
     return this.address(`projects/${project}/files/${path.split("/").map(encodeURIComponent).join("/")}`);
   }
 
+  favouriteUrl(project: number, favourite: number): string {
+    return this.address(`projects/${project}/favourites/${favourite}`);
+  }
+
   exportUrl(project: number, format: ExportFormat): string {
     return this.address(`projects/${project}/export/${format}`);
   }

@@ -6,6 +6,7 @@ import type { Side, Tool } from "../view/host";
 import type { Studio } from "../store/studio";
 import { countOf } from "../store/scene";
 import { Dialog } from "./dialog";
+import { keepFavourite } from "../panels/keep_favourite";
 import { useStudio } from "./studio_context";
 import { currentView } from "./view_access";
 
@@ -81,9 +82,7 @@ export const SHORTCUTS: readonly Shortcut[] = [
   toggle("t", "targets", "Targets"),
   toggle("h", "reach", "Where the rule under the cursor can reach"),
   { key: " ", words: "Start or stop the search", group: "Search", run: (studio) => studio.searching.toggle() },
-  { key: "k", words: "Keep the model as a favourite", group: "Search", run: (studio) => {
-    if (studio.state.shown.value !== null) void studio.ask({ kind: "keep_favourite" });
-  } },
+  { key: "k", words: "Keep the model as a favourite", group: "Search", run: (studio) => void keepFavourite(studio) },
   { key: "l", words: "Lock or free the selected gene", group: "Search", run: (studio) => {
     const gene = studio.state.gene.value;
     if (gene !== null && studio.state.selection.value?.kind === "gene") void studio.genes.setLock(!gene.locked);

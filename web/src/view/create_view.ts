@@ -4,7 +4,7 @@ import type { Camera, Scene } from "../api";
 import type { Desk, Under } from "./desk";
 import { Draft } from "./draft";
 import { Hands } from "./hands";
-import { kNoneHidden, type Brush, type Hidden, type Highlight, type Look, type Selection, type Side, type StudioView,
+import { kNoneHidden, type Brush, type Hidden, type Highlight, type Look, type Portrait, type Selection, type Side, type StudioView,
   type Tool, type ViewHost } from "./host";
 import { Input } from "./input";
 import { ModelLayer } from "./model_layer";
@@ -190,6 +190,12 @@ export class View implements StudioView, Desk {
 
   camera(): Camera {
     return cameraOf(this.eye());
+  }
+
+  async picture(): Promise<Portrait | null> {
+    const taken = this.model.portrait(this.motion.goal);
+    this.redraw();
+    return taken;
   }
 
   dispose(): void {

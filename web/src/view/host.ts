@@ -55,6 +55,12 @@ export function isHidden(hidden: Hidden, target: { kind: string; index?: number 
     : target.kind === "mesh" && hidden.meshes.includes(target.index);
 }
 
+export interface Portrait {
+  /** Number of the model. */
+  model: number;
+  image: Blob;
+}
+
 export interface StudioView {
   /** Binary messages as they come: docs/studio-protocol.md. */
   setMeshes(message: ArrayBuffer): void;
@@ -73,5 +79,7 @@ export interface StudioView {
   /** Moves the camera so that all is seen. */
   frame(): void;
   camera(): Camera;
+  /** A small picture of the parts as they are seen now, framed by themselves on nothing; null where there are none. */
+  picture(): Promise<Portrait | null>;
   dispose(): void;
 }

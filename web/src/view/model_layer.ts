@@ -4,9 +4,11 @@ import type { CloudMessage, MeshTable, ModelMessage } from "./messages";
 import { decodeCloud, decodeMeshes, decodeModel, kBoneWords, MessageError } from "./messages";
 import { contactPatch, contactSquare, kContactCells } from "./contact";
 import { markGenes } from "./gene_marks";
-import type { Highlight, Look } from "./host";
+import type { Highlight, Look, Portrait } from "./host";
+import { eyeOf, framed, type Orbit } from "./orbit";
 import { PartPicker, type Hit } from "./part_picker";
 import type { Palette } from "./palette";
+import { encodePortrait, kPortraitHeight, kPortraitScale, kPortraitWidth } from "./portrait";
 import type { Stage } from "./stage";
 import { boneStrokes, cloudStrokes, StrokeBatch } from "./stroke_batch";
 import { emptyBox, grow, isEmpty, type Box, type V } from "./vec";
@@ -15,6 +17,7 @@ export class ModelLayer {
   readonly bones: StrokeBatch;
   readonly cloud = new StrokeBatch(cloudStrokes);
   box: Box = emptyBox();
+  private partsBox: Box = emptyBox();
   private table: MeshTable | null = null;
   /** Of the parts that are drawn: a new table counts from the next model on. */
   private drawnTable: MeshTable | null = null;
@@ -51,10 +54,10 @@ export class ModelLayer {
     this.drawnTable = table;
     this.model = model;
     this.box = parts.setModel(model, table);
-    const parted: Box = { min: [...this.box.min], max: [...this.box.max] };
+    this.partsBox = { min: [...this.box.min], max: [...this.box.max] };
     this.picker.setModel(model, table.meshes, parts.extents);
     this.setBones(model);
-    this.stage.setCasters(parted);
+    this.stage.setCasters(this.partsBox);
     if (!isEmpty(this.box)) contactPatch(model, parts.extents, this.box, this.scratch, this.stage.ground.bytes);
     this.stage.ground.setPatch(isEmpty(this.box) ? null : contactSquare(this.box));
     this.mark();
@@ -105,6 +108,21 @@ export class ModelLayer {
   /** `direction` has length 1. */
   pick(origin: V, direction: V): Hit | null {
     return this.stage.parts.group.visible ? this.picker.pick(origin, direction) : null;
+  }
+
+  /** The parts without marks, seen from where `orbit` looks but framed by themselves; null where there are none. */
+  async portrait(orbit: Orbit): Promise<Portrait | null> {
+    if (!this.model || isEmpty(this.partsBox)) return null;
+    const width = kPortraitScale * kPortraitWidth, height = kPortraitScale * kPortraitHeight;
+    const eye = eyeOf(framed(orbit, this.partsBox, width / height), width, height), { parts } = this.stage;
+    const model = this.model.number;
+    parts.markBytes.fill(0);
+    parts.marksChanged();
+    parts.uniform("uDim", 0);
+    const rgba = this.stage.portrait(eye, this.partsBox);
+    this.mark();
+    const image = await encodePortrait(rgba, width, height);
+    return image && { model, image };
   }
 
   dispose(): void {

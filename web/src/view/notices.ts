@@ -79,6 +79,9 @@ export class NoView implements StudioView {
   setHighlight(): void {}
   snap(): void {}
   frame(): void {}
+  picture(): Promise<null> {
+    return Promise.resolve(null);
+  }
   camera(): Camera {
     return {};
   }

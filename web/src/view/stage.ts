@@ -120,6 +120,27 @@ export class Stage {
     return renderer.info.render.calls;
   }
 
+  /** The parts alone before nothing: rows of RGBA from below, of the eye's width and height. */
+  portrait(eye: Eye, scope: Box): Uint8ClampedArray<ArrayBuffer> {
+    const { renderer, parts } = this, { width, height } = eye;
+    const target = new WebGLRenderTarget(width, height, { generateMipmaps: false });
+    const bytes = new Uint8ClampedArray(4 * width * height), shown = parts.group.visible;
+    const colour = renderer.getClearColor(new Color()), alpha = renderer.getClearAlpha();
+    if (this.shadowTarget && this.shadowBox) this.renderShadow(this.shadowBox);
+    this.aim(eye, scope);
+    parts.group.visible = true;
+    renderer.setClearColor(0, 0);
+    renderer.setRenderTarget(target);
+    renderer.clear();
+    renderer.render(this.solid, this.camera);
+    renderer.readRenderTargetPixels(target, 0, 0, width, height, bytes);
+    renderer.setRenderTarget(null);
+    renderer.setClearColor(colour, alpha);
+    parts.group.visible = shown;
+    target.dispose();
+    return bytes;
+  }
+
   dispose(): void {
     this.parts.dispose();
     this.ground.dispose();

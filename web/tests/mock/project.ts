@@ -15,6 +15,8 @@ export class MockProject {
   revision = 1;
   files: FileInfo[] = [];
   favourites: Document["favourites"] = [];
+  /** Of favourites, by their numbers. */
+  pictures = new Map<number, Buffer>();
   private versions: Version[];
   private at = 0;
 

@@ -1,0 +1,91 @@
+#include "studio/breeding_bench.h"
+
+#include <algorithm>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "breed/usual_viability.h"
+#include "derivation/adapt.h"
+#include "derivation/encode.h"
+#include "studio/breeding_settings.h"
+
+namespace espalier::studio {
+
+std::unique_ptr<Executor> make_breeding_executor() {
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  return cores > 2 ? make_tbb_executor(cores - 1) : make_serial_executor();
+}
+
+BreedingBench::BreedingBench(ReadBlob read_blob, Executor& executor) : executor_(executor), bench_(std::move(read_blob)) {}
+BreedingBench::~BreedingBench() = default;
+
+void BreedingBench::take(const StoredState& state) {
+  if (ready() && state == state_) return;
+  bench_.take(state);
+  std::shared_ptr<const Setup> setup = bench_.set_up({});
+  appraiser_.reset();
+  scorer_.reset();
+  setup_ = std::move(setup);
+  state_ = state;
+  usual_is_exact_ = false;
+}
+
+ViabilitySettings BreedingBench::viability(const api::RoomSettings& settings) {
+  if (!usual_ || usual_of_ != state_.grammar) {
+    usual_ = usual_viability(graph(), setup_->meshes);
+    usual_of_ = state_.grammar;
+    usual_is_exact_ = true;
+  }
+  ViabilitySettings judged = viability_settings(settings);
+  judged.most_below_ground = usual_->most_below_ground;
+  judged.most_crowding = usual_->most_crowding;
+  return judged;
+}
+
+Derivation BreedingBench::read(const std::string& encoded) const {
+  std::string why = "it cannot stand in the grammar as it is now";
+  try {
+    if (auto fitting = adapt(graph(), decode(graph(), encoded, kMostGenes, Fit::adaptable))) return std::move(fitting->derivation);
+  } catch (const Error& error) {
+    why = error.what();
+  }
+  throw Error("it belongs to another text of the grammar: " + why);
+}
+
+Held BreedingBench::held(const std::vector<api::DrawPlace>& locked) const {
+  Held held;
+  for (const api::DrawPlace& place : locked) {
+    Held one;
+    try {
+      one.draws.push_back({parse_gene_path(graph(), place.path), static_cast<std::uint16_t>(std::clamp<std::int64_t>(place.index, 0, 0xffff))});
+      validate(graph(), one);
+    } catch (const Error&) {  // of another text of the grammar
+      continue;
+    }
+    held.draws.push_back(std::move(one.draws[0]));
+  }
+  return held;
+}
+
+BreedProblem BreedingBench::problem(const api::RoomSettings& settings, std::uint64_t seed,
+                                    const std::vector<api::DrawPlace>& locked) {
+  appraiser_.reset();
+  if (!scorer_ && setup_->objective.size() > 0) {
+    scorer_ = std::make_unique<SceneScorer>(graph(), setup_->objective, executor_);
+  }
+  ModelAppraiser::Settings judged;
+  // What is bred depends on nothing but this state, so that it can be bred again.
+  if (!usual_is_exact_) usual_.reset();
+  judged.viability = viability(settings);
+  appraiser_ = std::make_unique<ModelAppraiser>(setup_->grammar.graph, setup_->meshes, judged, scorer_.get(), executor_);
+  BreedProblem problem;
+  problem.graph = setup_->grammar.graph;
+  problem.held = held(locked);
+  problem.appraiser = appraiser_.get();
+  problem.seed = seed;
+  return problem;
+}
+
+}  // namespace espalier::studio

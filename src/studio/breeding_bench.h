@@ -1,0 +1,61 @@
+#pragma once
+// BreedingBench: what a project's state is for breeding: its grammar, what judges candidates, and the way from texts of
+// derivations to such as the grammar can show. Of one thread at a time.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <studio_types.h>
+
+#include "base/executor.h"
+#include "breed/breed_problem.h"
+#include "run/scene_scorer.h"
+#include "studio/workbench.h"
+
+namespace espalier::studio {
+
+class BreedingBench {
+ public:
+  static constexpr std::uint32_t kMostGenes = 20'000;  // of an individual
+
+  /// `executor` must outlive it.
+  BreedingBench(ReadBlob read_blob, Executor& executor);
+  ~BreedingBench();
+
+  /// Throws Error for a state that is not right; then the one before stays.
+  void take(const StoredState& state);
+  bool ready() const { return setup_ != nullptr; }
+  /// Only when ready, as all that follows.
+  const std::shared_ptr<const Setup>& setup() const { return setup_; }
+  const GeneratorGraph& graph() const { return setup_->graph(); }
+  bool has_targets() const { return bench_.scene().has_targets; }
+  const StoredState& state() const { return state_; }
+  std::string as_named(const std::string& text) const { return bench_.as_named(text); }
+
+  /// The derivation as the grammar can show it, adapted where it is of an older text. Throws Error saying why it cannot.
+  Derivation read(const std::string& encoded) const;
+  /// Locks that lead nowhere in this grammar hold nothing, and are left out.
+  Held held(const std::vector<api::DrawPlace>& locked) const;
+  /// What is usual for the grammar, with the limits of these settings. What it costs is paid when the grammar's text is new.
+  ViabilitySettings viability(const api::RoomSettings& settings);
+  /// What is bred here, judged by these settings. It is good until the next call of this or of take.
+  BreedProblem problem(const api::RoomSettings& settings, std::uint64_t seed, const std::vector<api::DrawPlace>& locked);
+
+ private:
+  Executor& executor_;
+  Workbench bench_;
+  StoredState state_;
+  std::shared_ptr<const Setup> setup_;
+  std::optional<ViabilitySettings> usual_;  // of ...
+  std::string usual_of_;                    // this text
+  bool usual_is_exact_ = false;             // and of this very state
+  std::unique_ptr<SceneScorer> scorer_;
+  std::unique_ptr<ModelAppraiser> appraiser_;
+};
+
+/// All cores but one, which is left to the server; one where there are no more than two.
+std::unique_ptr<Executor> make_breeding_executor();
+
+}  // namespace espalier::studio

@@ -1,0 +1,108 @@
+#include "studio/breeding_recipe.h"
+
+#include <array>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "breed/first_generation.h"
+#include "breed/generation.h"
+#include "studio/breeding_settings.h"
+
+namespace espalier::studio {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 3> kKinds = {"first", "bred", "like"};
+constexpr std::size_t kMostParents = 1000;
+
+/// The parents as members; `lost`: how many the grammar has no place for, and why the last of them.
+std::vector<Member> members_of(const BreedingBench& bench, const BreedingRecipe& recipe, const ReadText& read_text,
+                               std::size_t& lost, std::string& why) {
+  std::vector<Member> members;
+  for (const RecipeParent& parent : recipe.parents) {
+    Member member;
+    try {
+      member.derivation = bench.read(read_text(parent.derivation));
+    } catch (const Error& error) {
+      ++lost;
+      why = error.what();
+      continue;
+    }
+    member.id = static_cast<MemberId>(parent.id);
+    member.rated = parent.rating.has_value();
+    member.rating = parent.rating.value_or(0);
+    members.push_back(std::move(member));
+  }
+  return members;
+}
+
+}  // namespace
+
+std::string to_json(const BreedingRecipe& recipe) {
+  Json json = {{"kind", kKinds[static_cast<std::size_t>(recipe.kind)]}, {"settings", settings_text(recipe.settings)},
+               {"seed", recipe.seed}, {"number", recipe.number}, {"first_id", recipe.first_id},
+               {"locked", locked_text(recipe.locked)}, {"parents", Json::array()}};
+  for (const RecipeParent& parent : recipe.parents) {
+    Json item = {{"id", parent.id}, {"derivation", parent.derivation}};
+    if (parent.rating) item["rating"] = *parent.rating;
+    json["parents"].push_back(std::move(item));
+  }
+  return json.dump();
+}
+
+BreedingRecipe parse_recipe(std::string_view text) {
+  try {
+    const Json json = Json::parse(text);
+    BreedingRecipe recipe;
+    const auto kind = std::find(kKinds.begin(), kKinds.end(), json.at("kind").get<std::string>());
+    if (kind == kKinds.end()) throw Error("it is of no kind that is known");
+    recipe.kind = static_cast<RecipeKind>(kind - kKinds.begin());
+    recipe.settings = read_settings(json.at("settings").get<std::string>());
+    recipe.seed = json.at("seed").get<std::uint64_t>();
+    recipe.number = json.at("number").get<std::uint32_t>();
+    recipe.first_id = json.at("first_id").get<std::int64_t>();
+    recipe.locked = read_locked(json.at("locked").get<std::string>());
+    if (json.at("parents").size() > kMostParents) throw Error(fmt::format("it has more than {} parents", kMostParents));
+    for (const Json& item : json.at("parents")) {
+      RecipeParent parent{item.at("id").get<std::int64_t>(), item.at("derivation").get<std::string>(), {}};
+      if (item.contains("rating")) parent.rating = item.at("rating").get<double>();
+      recipe.parents.push_back(std::move(parent));
+    }
+    return recipe;
+  } catch (const Json::exception& error) {
+    throw Error(fmt::format("the recipe of a generation is damaged: {}", error.what()));
+  } catch (const Error& error) {
+    throw Error(fmt::format("the recipe of a generation is damaged: {}", error.what()));
+  }
+}
+
+MadeGeneration make_generation(BreedingBench& bench, const BreedingRecipe& recipe, const ReadText& read_text) {
+  std::size_t lost = 0;
+  std::string why;
+  const std::vector<Member> parents = members_of(bench, recipe, read_text, lost, why);
+  const BreedProblem problem = bench.problem(recipe.settings, recipe.seed, recipe.locked);
+  const BreedSettings settings = breed_settings(recipe.settings);
+  const auto first_id = static_cast<MemberId>(recipe.first_id);
+  MadeGeneration made;
+  if (lost > 0) made.notes.push_back(fmt::format("{} of {} parents: {}", lost, recipe.parents.size(), why));
+  if (parents.empty() && !recipe.parents.empty()) throw Error(why);
+  if (recipe.kind == RecipeKind::first) {
+    std::vector<Derivation> founders;
+    for (const Member& parent : parents) founders.push_back(parent.derivation);
+    FirstGeneration first = first_generation(problem, settings, founders, first_id);
+    made.members = std::move(first.members);
+    if (!first.note.empty()) made.notes.push_back(std::move(first.note));
+  } else {
+    NextGeneration next = next_generation(problem, settings, parents, recipe.number, first_id);
+    made.members = std::move(next.members);
+    if (next.refused > 0) made.notes.push_back(fmt::format("{} of {} children were refused", next.refused, next.tried));
+    if (!next.note.empty()) made.notes.push_back(std::move(next.note));
+  }
+  if (made.members.empty()) throw Error("nothing viable grows from this grammar within these limits");
+  return made;
+}
+
+}  // namespace espalier::studio

@@ -1,0 +1,15 @@
+import { currentView } from "../shell/view_access";
+import type { Studio } from "../store/studio";
+
+/** Keeps the model that is shown, with a picture of it as it is seen. */
+export async function keepFavourite(studio: Studio): Promise<void> {
+  if (studio.state.shown.value === null) return;
+  const portrait = (await currentView.value?.picture()) ?? null;
+  const picture = portrait && { model: portrait.model, picture: await base64Of(portrait.image) };
+  await studio.ask({ kind: "keep_favourite", ...picture });
+}
+
+export async function base64Of(blob: Blob): Promise<string> {
+  const bytes = new Uint8Array(await blob.arrayBuffer());
+  return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
+}
