@@ -64,9 +64,9 @@ function Triangle({ weights }: { weights: readonly number[] }) {
   };
   const names = weights.map((weight, i) => `${"ABC"[i]} ${Math.round(100 * weight)} %`).join(", ");
   return (
-    <svg
-      ref={element} class="blend-triangle" viewBox={`0 0 ${kSide} ${high}`} role="slider" tabIndex={0} aria-label="How much of each parent" aria-valuenow={Math.round(100 * weights[0]!)}
-      aria-valuemin={0} aria-valuemax={100} aria-valuetext={names} onKeyDown={onKeyDown}
+    <div
+      class="blend-triangle" role="slider" tabIndex={0} aria-label="How much of each parent" aria-valuenow={Math.round(100 * weights[0]!)} aria-valuemin={0} aria-valuemax={100}
+      aria-valuetext={names} onKeyDown={onKeyDown}
       onPointerDown={(event) => {
         event.currentTarget.setPointerCapture(event.pointerId);
         held.current = true;
@@ -76,15 +76,17 @@ function Triangle({ weights }: { weights: readonly number[] }) {
       onPointerUp={() => (held.current = false)}
       onPointerCancel={() => (held.current = false)}
     >
-      <polygon class="blend-face" points={at.map(scaled).map((p) => `${p.x},${p.y}`).join(" ")} />
-      {at.map(scaled).map((p, i) => <line key={i} class="blend-pull" x1={p.x} y1={p.y} x2={point.x} y2={point.y} style={{ strokeWidth: `${0.5 + 3 * weights[i]!}px` }} />)}
-      {at.map(scaled).map((p, i) => (
-        <g key={i}>
-          <circle class="blend-corner" cx={p.x} cy={p.y} r={kRound} />
-          <text x={p.x} y={p.y + 4}>{"ABC"[i]}</text>
-        </g>
-      ))}
-      <circle class="blend-point" cx={point.x} cy={point.y} r={8} />
-    </svg>
+      <svg ref={element} viewBox={`0 0 ${kSide} ${high}`} aria-hidden="true">
+        <polygon class="blend-face" points={at.map(scaled).map((p) => `${p.x},${p.y}`).join(" ")} />
+        {at.map(scaled).map((p, i) => <line key={i} class="blend-pull" x1={p.x} y1={p.y} x2={point.x} y2={point.y} style={{ strokeWidth: `${0.5 + 3 * weights[i]!}px` }} />)}
+        {at.map(scaled).map((p, i) => (
+          <g key={i}>
+            <circle class="blend-corner" cx={p.x} cy={p.y} r={kRound} />
+            <text x={p.x} y={p.y + 4}>{"ABC"[i]}</text>
+          </g>
+        ))}
+        <circle class="blend-point" cx={point.x} cy={point.y} r={8} />
+      </svg>
+    </div>
   );
 }

@@ -20,6 +20,8 @@ export interface StagePlace {
 const kTurn = 2 * Math.PI / 20;
 /** A frame that takes longer draws fewer models the next time, milliseconds. */
 const kSlow = 40, kQuick = 22;
+/** Models in a frame; at first, where the processor draws. */
+const kMost = 64, kMostSlow = 3;
 /** Between the models: the background of the page. */
 const kGapDark = new Color(0x17191c), kGapLight = new Color(0xdde1e5);
 /** Small pictures need more of a difference from what is around them than the one large view. */
@@ -45,7 +47,7 @@ export class RoomStage {
   private height = 0;
   private frame = 0;
   private last = 0;
-  private most = 64;
+  private most: number;
   private next = 0;
   private readonly back = new Vector3();
   private readonly right = new Vector3();
@@ -59,6 +61,7 @@ export class RoomStage {
 
   private constructor(opened: Opened, private readonly complain: (text: string) => void) {
     this.element = opened.canvas;
+    this.most = opened.software ? kMostSlow : kMost;
     this.renderer = new WebGLRenderer({ canvas: opened.canvas, context: opened.context });
     this.renderer.autoClear = false;
     this.renderer.sortObjects = false;
@@ -209,8 +212,8 @@ export class RoomStage {
     this.last = now;
     if (this.turning) this.azimuth += kTurn * Math.min(passed, 100) / 1000;
     if (this.turning && passed > 0) {
-      if (passed > kSlow) this.most = Math.max(1, Math.floor(this.most * 0.6));
-      else if (passed < kQuick) this.most = Math.min(64, this.most + 1);
+      if (passed > kSlow) this.most = Math.max(1, Math.floor(Math.min(this.most, this.places.length) * 0.6));
+      else if (passed < kQuick) this.most = Math.min(kMost, this.most + 1);
     }
     if (this.wholly) this.clearAll();
     const shared = this.oneScale ? commonSpan(this.places.flatMap((place) => this.models.get(place.individual)?.drawn.span ?? [])) : null;
