@@ -58,7 +58,7 @@ describe("the start", () => {
   test("the first bred generation is three clicks away", async () => {
     await page.getByRole("button", { name: "Breed", exact: true }).click();
     await page.getByRole("button", { name: "Start breeding" }).click();
-    await page.getByRole("button", { name: "Next generation" }).click();
+    await page.getByRole("button", { name: "Next generation", exact: true }).click();
     await generation(2).waitFor();
     expect(await cells().count()).toBe(12);
   });
@@ -277,12 +277,12 @@ describe("history", () => {
     await start();
     await more(2).click();
     for (const number of [2, 3, 4]) {
-      await page.getByRole("button", { name: "Next generation" }).click();
+      await page.getByRole("button", { name: "Next generation", exact: true }).click();
       await generation(number).waitFor();
     }
     await page.getByRole("button", { name: /^Generation 2:/ }).click();
     await generation(2).waitFor();
-    await page.getByRole("button", { name: "Next generation" }).click();
+    await page.getByRole("button", { name: "Next generation", exact: true }).click();
     await generation(5).waitFor();
     expect(session().generations[4]!.parent).toBe(2);
     const [main, branch] = await Promise.all([3, 5].map((number) => page.getByRole("button", { name: new RegExp(`^Generation ${number}:`) }).boundingBox()));

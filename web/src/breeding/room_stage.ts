@@ -18,8 +18,8 @@ export interface StagePlace {
 
 /** Radians in a second: a turn takes 20. */
 const kTurn = 2 * Math.PI / 20;
-/** A frame that takes longer draws fewer models the next time, milliseconds. */
-const kSlow = 40, kQuick = 22;
+/** Milliseconds from frame to frame; where they are more, fewer models are drawn the next time. */
+const kSlow = 40;
 /** Models in a frame; at first, where the processor draws. */
 const kMost = 64, kMostSlow = 3;
 /** Between the models: the background of the page. */
@@ -212,8 +212,8 @@ export class RoomStage {
     this.last = now;
     if (this.turning) this.azimuth += kTurn * Math.min(passed, 100) / 1000;
     if (this.turning && passed > 0) {
-      if (passed > kSlow) this.most = Math.max(1, Math.floor(Math.min(this.most, this.places.length) * 0.6));
-      else if (passed < kQuick) this.most = Math.min(kMost, this.most + 1);
+      const { most } = this;
+      this.most = passed > kSlow ? Math.max(1, Math.floor(Math.min(most, this.places.length) * 0.6)) : Math.min(kMost, most + 1);
     }
     if (this.wholly) this.clearAll();
     const shared = this.oneScale ? commonSpan(this.places.flatMap((place) => this.models.get(place.individual)?.drawn.span ?? [])) : null;
