@@ -5,6 +5,8 @@ import statistics
 
 from chart import chart
 from claims import CLAIMS_2016, CLAIMS_2017, effect, percent
+from breeding import TITLE, breeding_section
+from breeding import is_complete as has_bred
 from curves_page import curves_section
 from curves_results import is_complete
 from markdown import save, table
@@ -189,8 +191,24 @@ def write_page(out):
         parts.append("### Table 1: times\n\n" + times_section(sweeps))
     if is_complete(os.path.join(out, "curves")):
         parts.append(curves_section(os.path.join(out, "curves")))
-    with open(os.path.join(ROOT, "docs", "experiments.md"), "w", encoding="utf-8") as file:
-        file.write("\n".join(parts))
+    bred = os.path.join(out, "breeding")
+    if has_bred(bred):
+        parts.append(breeding_section(bred))
+    path = os.path.join(ROOT, "docs", "experiments.md")
+    text = "\n".join(parts)
+    if not comparisons and not sweeps and has_bred(bred):
+        # Nothing else was measured on this machine: what others found stays.
+        with open(path, encoding="utf-8") as file:
+            text = with_section(file.read(), TITLE, parts[-1])
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def with_section(text, title, section):
+    """The page with this section in the place of the one of the same title, or behind all others."""
+    before, found, rest = text.partition(title + "\n")
+    behind = rest.find("\n## ")
+    return before.rstrip("\n") + "\n\n" + section + (rest[behind:] if found and behind >= 0 else "")
 
 
 VARIANTS = table(["variant", "what"], [

@@ -32,6 +32,12 @@ struct NextGeneration {
   std::string note;             // what was short, in words; empty where nothing was
 };
 
+/// A member without an id, of a candidate and the generation before.
+Member member_of(Candidate candidate, const std::vector<Member>& parents);
+
+/// Adds copies of the favourites: the settings' `keep` best that were rated above neutral, best first, no two alike.
+void keep_favourites(const BreedSettings& settings, const std::vector<Member>& parents, NextGeneration& next);
+
 /// `parents`: the present generation, at least one, any number. `number`: of the generation made, from 1.
 ///
 /// classic: Genesis on ratings (search/genesis_strings.h); all equal: everybody is as likely to have children. What is not

@@ -17,6 +17,8 @@ void validate(const BreedSettings& s) {
   require_range("strength", s.strength, 0.0, 1.0);
   require_range("keep", s.keep, 0u, s.population - 1);
   require_range("crossover", s.crossover, 0.0, 1.0);
+  require_range("blend", s.blend, 0.0, 1.0);
+  require_range("lean", s.lean, 0.0, 1.0);
   require_range("newcomers", s.newcomers, 0.0, 1.0);
   validate(s.genesis);
 }

@@ -28,6 +28,11 @@ std::uint32_t reflected(double u) {
   return static_cast<std::uint32_t>(std::clamp(u, 0.0, kOne - 1));
 }
 
+/// Of the plateau of a value.
+std::uint32_t middle_of(std::uint64_t value, std::uint32_t values) {
+  return static_cast<std::uint32_t>(((value * 2 + 1) << 31) / values);
+}
+
 std::uint32_t other_value(std::uint32_t quantile, std::uint32_t values, double scale, RandomStream& random) {
   if (values < 2) return quantile;
   const auto n = static_cast<std::int64_t>(values);
@@ -39,8 +44,7 @@ std::uint32_t other_value(std::uint32_t quantile, std::uint32_t values, double s
   if (moved >= n) moved = 2 * (n - 1) - moved;
   moved = std::clamp<std::int64_t>(moved, 0, n - 1);
   if (moved == value) moved = value > 0 ? value - 1 : value + 1;
-  // The middle of the plateau.
-  return static_cast<std::uint32_t>(((std::uint64_t(moved) * 2 + 1) << 31) / values);
+  return middle_of(static_cast<std::uint64_t>(moved), values);
 }
 
 /// The draws of a derivation in order, with what they are.
@@ -112,11 +116,27 @@ std::uint32_t mixed(const DrawComponent& draw, std::span<const std::uint32_t> qu
       value += weights[i] / sum * static_cast<double>((std::uint64_t{quantiles[i]} * draw.values) >> 32);
     }
     const auto nearest = static_cast<std::uint64_t>(std::llround(value));
-    return static_cast<std::uint32_t>(((nearest * 2 + 1) << 31) / draw.values);
+    return middle_of(nearest, draw.values);
   }
   double u = 0;
   for (std::size_t i = 0; i < quantiles.size(); ++i) u += weights[i] / sum * quantiles[i];
   return static_cast<std::uint32_t>(std::clamp(std::floor(u + 0.5), 0.0, kOne - 1));
+}
+
+std::uint32_t moved_by(std::uint32_t quantile, const DrawComponent& draw, std::uint32_t to, std::uint32_t from,
+                       double amount) {
+  if (draw.shape == DrawShape::circular) {
+    return quantile + static_cast<std::uint32_t>(std::llround(amount * static_cast<std::int32_t>(to - from)));
+  }
+  if (draw.shape == DrawShape::discrete && draw.values > 1) {
+    const std::int64_t n = draw.values;
+    const auto value = [&](std::uint32_t q) { return static_cast<std::int64_t>((std::uint64_t{q} * draw.values) >> 32); };
+    const std::int64_t step = std::llround(amount * static_cast<double>(value(to) - value(from)));
+    const std::int64_t moved = std::clamp<std::int64_t>(value(quantile) + step, 0, n - 1);
+    return moved == value(quantile) ? quantile : middle_of(static_cast<std::uint64_t>(moved), draw.values);
+  }
+  const double moved = quantile + amount * (static_cast<double>(to) - from);
+  return static_cast<std::uint32_t>(std::clamp(std::floor(moved + 0.5), 0.0, kOne - 1));
 }
 
 }  // namespace
@@ -188,6 +208,25 @@ Derivation blend(const GeneratorGraph& graph, std::span<const Derivation* const>
   }
   keep_held_draws(graph, *parents[0], held, child);
   return child;
+}
+
+void lean(const GeneratorGraph& graph, const Derivation& toward, const Derivation& away, double amount, const Held& held,
+          Derivation& child) {
+  constexpr std::uint32_t kNowhere = 0xffffffff;
+  std::vector<std::uint32_t> at(child.draws.size(), kNowhere);
+  for (const AlignedGene& gene : align(graph, child, away)) {
+    for (std::uint32_t k = 0; k < gene.draws; ++k) at[gene.first.draw + k] = gene.second.draw + k;
+  }
+  const std::vector<const DrawComponent*> components = components_of(graph, child);
+  const std::vector<std::uint8_t> is_held = held_draws(graph, child, held);
+  for (const AlignedGene& gene : align(graph, child, toward)) {
+    for (std::uint32_t k = 0; k < gene.draws; ++k) {
+      const std::uint32_t draw = gene.first.draw + k;
+      if (at[draw] == kNowhere || is_held[draw]) continue;
+      const std::uint32_t to = toward.draws[gene.second.draw + k], from = away.draws[at[draw]];
+      child.draws[draw] = moved_by(child.draws[draw], *components[draw], to, from, amount);
+    }
+  }
 }
 
 Derivation make_sibling(const GeneratorGraph& graph, const Derivation& favourite, const Held& held, double strength,

@@ -30,6 +30,12 @@ Derivation cross(const GeneratorGraph& graph, const Derivation& first, const Der
 Derivation blend(const GeneratorGraph& graph, std::span<const Derivation* const> parents, std::span<const double> weights,
                  const Held& held);
 
+/// The child moved by `amount` times the way from `away` to `toward`, in draws that all three have (same path, rule and
+/// variant): what people liked in one beside the other, carried over. Continuous quantiles stop at their ends, circular
+/// ones go round, those of n values move by the nearest number of values. What is held stays. Draws no random numbers.
+void lean(const GeneratorGraph& graph, const Derivation& toward, const Derivation& away, double amount, const Held& held,
+          Derivation& child);
+
 /// "More like this": all of a favourite's draws move a little and its subtrees stay, but for one that may change when
 /// strength is above 1/2; another detail seed, so its chances fall otherwise.
 Derivation make_sibling(const GeneratorGraph& graph, const Derivation& favourite, const Held& held, double strength,

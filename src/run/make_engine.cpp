@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "search/ga.h"
+#include "search/genesis.h"
 #include "search/guided.h"
 #include "search/hybrid.h"
 #include "search/rjmcmc.h"
@@ -16,6 +17,7 @@ std::unique_ptr<Engine> make_engine(const SceneSearch& search, const SearchProbl
     case EngineKind::sosmc: return std::make_unique<SmcEngine>(problem, search.sosmc);
     case EngineKind::rjmcmc: return std::make_unique<RjmcmcEngine>(problem, search.rjmcmc);
     case EngineKind::guided: return std::make_unique<GuidedEngine>(problem, search.guided);
+    case EngineKind::genesis: return std::make_unique<GenesisEngine>(problem, search.genesis);
     case EngineKind::hybrid: break;
   }
   HybridSettings hybrid = search.hybrid;

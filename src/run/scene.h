@@ -16,6 +16,7 @@
 #include "score/limit.h"
 #include "score/silhouette_target.h"
 #include "score/volume_target.h"
+#include "search/genesis_settings.h"
 #include "search/guided_settings.h"
 #include "search/hybrid_settings.h"
 
@@ -30,8 +31,9 @@ struct SceneBudget {
   bool operator==(const SceneBudget&) const = default;
 };
 
-enum class EngineKind : std::uint8_t { ga, smc, sosmc, rjmcmc, hybrid, guided };
-inline constexpr std::array<std::string_view, 6> kEngineNames = {"ga", "smc", "sosmc", "rjmcmc", "hybrid", "guided"};
+enum class EngineKind : std::uint8_t { ga, smc, sosmc, rjmcmc, hybrid, guided, genesis };
+inline constexpr std::array<std::string_view, 7> kEngineNames = {"ga",     "smc",    "sosmc",  "rjmcmc",
+                                                                  "hybrid", "guided", "genesis"};
 inline std::string_view name_of(EngineKind engine) { return kEngineNames[static_cast<std::size_t>(engine)]; }
 
 /// Settings of all engines; `genes` of each comes from the limits, and an `initial_length` that is not given from `ga`.
@@ -43,6 +45,7 @@ struct SceneSearch {
   SmcSettings sosmc;
   RjmcmcSettings rjmcmc;
   GuidedSettings guided;
+  GenesisSettings genesis;
   HybridSettings hybrid;  // but not those of its engines, which are the ones above
 
   bool operator==(const SceneSearch&) const = default;

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "run/initial_length.h"
 #include "run/scene_choices.h"
+#include "run/scene_genesis.h"
 #include "run/scene_samplers.h"
 #include "run/toml_section.h"
 
@@ -159,6 +160,7 @@ void read_search(const TomlValue& document, const std::string& engine_of_file, c
   read_settings(sources("sosmc"), file, [&](TomlSection& s) { read_smc(s, search.sosmc); });
   read_settings(sources("rjmcmc"), file, [&](TomlSection& s) { read_rjmcmc(s, search.rjmcmc); });
   read_settings(sources("guided"), file, [&](TomlSection& s) { read_guided(s, search.guided); });
+  read_settings(sources("genesis"), file, [&](TomlSection& s) { read_genesis(s, search.genesis); });
   read_settings(sources("hybrid"), file, [&](TomlSection& s) { read_hybrid(s, search.hybrid); });
   settle(search);
 }
@@ -177,6 +179,7 @@ void validate_search(const SceneSearch& search) {
     case EngineKind::rjmcmc: return validate(search.rjmcmc);
     case EngineKind::hybrid: return validate(hybrid);
     case EngineKind::guided: return validate(search.guided);
+    case EngineKind::genesis: return validate(search.genesis);
   }
 }
 
@@ -195,9 +198,9 @@ std::string search_to_toml(const SceneSearch& search) {
                       word_for(kCompatibilities, ga.crossover), ga.retries, format_toml(ga.replace_probability),
                       ga.reuse_scores, ga.unique, ga.join, ga.adapt, ga.restart_after);
   return text + fmt::format("\n[engine.smc]\n{}\n[engine.sosmc]\n{}\n[engine.rjmcmc]\n{}\n[engine.hybrid]\n{}"
-                            "\n[engine.guided]\n{}",
+                            "\n[engine.guided]\n{}\n[engine.genesis]\n{}",
                             to_toml(search.smc), to_toml(search.sosmc), to_toml(search.rjmcmc), to_toml(search.hybrid),
-                            to_toml(search.guided));
+                            to_toml(search.guided), to_toml(search.genesis));
 }
 
 }  // namespace espalier

@@ -163,6 +163,8 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   if (const TomlValue* t = s.table("budget")) read_budget(*t, name, scene.budget);
   s.table("search"), s.table("engine");
   read_search(root, named_engine, name, scene.search);
+  // Its genomes are one gene, always.
+  if (scene.search.engine == EngineKind::genesis) scene.search.ga.genes.min = 1;
   if (const TomlValue* t = s.table("limits")) read_limits(*t, name, scene);
   if (const TomlValue* t = s.table("volume")) read_volume(*t, name, scene.volume);
   if (const std::vector<TomlValue>* list = s.tables("silhouette")) {

@@ -37,7 +37,9 @@ void put_back_elite(std::span<const BitString> strings, std::span<const double> 
                     std::vector<GenesisChild>& children, std::size_t place) {
   const auto best = static_cast<std::uint32_t>(std::max_element(values.begin(), values.end()) - values.begin());
   for (const GenesisChild& child : children) {
-    if (child.string == strings[best]) return;
+    // A string that became the same by chance may stand for other quantiles (GenesisEncoding::inherit).
+    const bool copy = child.string == strings[best] && strings[child.parent] == strings[best];
+    if (copy && values[child.parent] == values[best]) return;
   }
   children[place] = {strings[best], best, best, false};
 }

@@ -1,5 +1,6 @@
 #include "studio/breeding_recipe.h"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -77,6 +78,12 @@ BreedingRecipe parse_recipe(std::string_view text) {
   } catch (const Error& error) {
     throw Error(fmt::format("the recipe of a generation is damaged: {}", error.what()));
   }
+}
+
+std::vector<std::string> texts_of(const BreedingRecipe& recipe) {
+  std::vector<std::string> texts;
+  for (const RecipeParent& parent : recipe.parents) texts.push_back(parent.derivation);
+  return texts;
 }
 
 MadeGeneration make_generation(BreedingBench& bench, const BreedingRecipe& recipe, const ReadText& read_text) {

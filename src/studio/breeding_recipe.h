@@ -46,6 +46,9 @@ struct BreedingRecipe {
 std::string to_json(const BreedingRecipe& recipe);
 BreedingRecipe parse_recipe(std::string_view json);
 
+/// Hashes of all derivations that it names.
+std::vector<std::string> texts_of(const BreedingRecipe& recipe);
+
 /// The text of a derivation by its hash. Throws Error.
 using ReadText = std::function<std::string(const std::string& hash)>;
 

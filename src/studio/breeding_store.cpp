@@ -69,22 +69,9 @@ std::int64_t BreedingStore::create(std::int64_t project, const BreedingHead& hea
   std::int64_t session = 0;
   store_.alone([&](Database& database) {
     Transaction transaction(database);
-    {
-      Statement ask = database.prepare("select count(*) from breeding_session where project = ?");
-      if (ask.bind(project).step() && ask.whole(0) >= kMostBreedings) {
-        throw Error(fmt::format("a project has at most {} breeding sessions", kMostBreedings));
-      }
-    }
-    database.prepare("insert into breeding_session (project, name, method, changed, revision, seed, settings, locked, generation, "
-                     "step, bytes) values (?, ?, ?, ?, 1, ?, ?, ?, 1, 0, 0)")
-        .bind(project).bind(head.summary.name).bind(head.summary.method).bind(now()).bind(head.seed).bind(head.settings)
-        .bind(head.locked).run();
-    session = database.last_row();
-    BreedingWriter writer(database, session);
-    writer.take(first);
+    session = add_session(database, project, head);
     // The first generation is how the session begins, nothing to take back.
-    writer.forget_steps(">", 0);
-    writer.touch(0);
+    BreedingWriter(database, session).add(first);
     transaction.commit();
   });
   return session;

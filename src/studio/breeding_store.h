@@ -83,6 +83,16 @@ struct BreedingStep {
   double seconds = 0;  // that the generation shown before was looked at since the last step
 };
 
+/// A session with all that belongs to it but its steps of undo.
+struct WholeBreeding {
+  BreedingHead head;
+  std::vector<StoredGeneration> generations = {};         // by number, 1, 2, ...
+  std::vector<BredRow> individuals = {};                  // by id
+  std::vector<BreedingComparison> comparisons = {};
+  std::map<std::string, std::string> derivations = {};    // texts by hash
+  std::map<std::string, std::string> files = {};          // bytes by hash, of all states
+};
+
 class BreedingStore {
  public:
   static constexpr std::int64_t kMostBreedings = 100;  // of a project
@@ -95,6 +105,9 @@ class BreedingStore {
   /// A session with its first generation. Throws Error, here and below, for what is not there, or beyond a budget; then nothing
   /// has changed.
   std::int64_t create(std::int64_t project, const BreedingHead& head, const BreedingStep& first);
+  /// For export, and what came back from there; returns its number.
+  WholeBreeding whole(std::int64_t project, std::int64_t session);
+  std::int64_t insert(std::int64_t project, const WholeBreeding& whole);
   void rename(std::int64_t project, std::int64_t session, const std::string& name);
   void remove(std::int64_t project, std::int64_t session);
 

@@ -36,6 +36,18 @@ BreedingField breeding_field(const std::string& name) {
   return static_cast<BreedingField>(field - kFields.begin());
 }
 
+std::int64_t add_session(Database& database, std::int64_t project, const BreedingHead& head) {
+  Statement ask = database.prepare("select count(*) from breeding_session where project = ?");
+  if (ask.bind(project).step() && ask.whole(0) >= BreedingStore::kMostBreedings) {
+    throw Error(fmt::format("a project has at most {} breeding sessions", BreedingStore::kMostBreedings));
+  }
+  database.prepare("insert into breeding_session (project, name, method, changed, revision, seed, settings, locked, generation, "
+                   "step, bytes) values (?, ?, ?, ?, 1, ?, ?, ?, ?, 0, 0)")
+      .bind(project).bind(head.summary.name).bind(head.summary.method).bind(now()).bind(head.seed).bind(head.settings)
+      .bind(head.locked).bind(std::max<std::int64_t>(head.generation, 1)).run();
+  return database.last_row();
+}
+
 std::int64_t BreedingWriter::head_step() const {
   Statement ask = database_.prepare("select step from breeding_session where id = ?");
   if (!ask.bind(session_).step()) throw Error(fmt::format("there is no breeding session {}", session_));
@@ -81,10 +93,13 @@ void BreedingWriter::add_generation(const StoredGeneration& one) {
   std::array<std::string, 3> hashes;
   for (std::size_t i = 0; i < texts.size(); ++i) keep_text(hashes[i] = content_hash(texts[i]), texts[i]);
   Statement insert = database_.prepare("insert into breeding_generation (session, number, parent, label, grammar, scene, files, "
-                                       "recipe, seconds) values (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                                       "recipe, seconds, diversity) values (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(session_).bind(one.number).bind(one.parent).bind(one.label);
   for (const std::string& hash : hashes) insert.bind(hash);
-  insert.bind_blob(one.recipe).bind(one.seconds).run();
+  insert.bind_blob(one.recipe).bind(one.seconds);
+  if (one.diversity) insert.bind(*one.diversity);
+  else insert.bind_maybe({});
+  insert.run();
   database_.prepare("update breeding_session set bytes = bytes + ? where id = ?")
       .bind(static_cast<std::int64_t>(one.recipe.size())).bind(session_).run();
 }
@@ -176,6 +191,20 @@ void BreedingWriter::forget_steps(const char* which, std::int64_t number) {
   }
 }
 
+void BreedingWriter::add(const BreedingStep& step) {
+  for (const auto& [hash, text] : step.texts) keep_text(hash, text);
+  if (step.generation) add_generation(*step.generation);
+  for (const BredRow& row : step.individuals) add_individual(row);
+  for (const BreedingComparison& one : step.comparisons) {
+    database_.prepare("insert into breeding_comparison values (?, ?, ?, ?, 1)")
+        .bind(session_).bind(one.number).bind(one.better).bind(one.worse).run();
+  }
+  if (count("select bytes from breeding_session where id = ?") > BreedingStore::kMostBytes) {
+    throw Error(fmt::format("the derivations and texts of a session have at most {} bytes: begin another one from your favourites",
+                            BreedingStore::kMostBytes));
+  }
+}
+
 void BreedingWriter::take(const BreedingStep& step) {
   const std::int64_t head = head_step();
   {
@@ -184,13 +213,7 @@ void BreedingWriter::take(const BreedingStep& step) {
                       "(select generation from breeding_session where id = ?)")
         .bind(step.seconds).bind(session_).bind(session_).run();
   }
-  for (const auto& [hash, text] : step.texts) keep_text(hash, text);
-  if (step.generation) add_generation(*step.generation);
-  for (const BredRow& row : step.individuals) add_individual(row);
-  for (const BreedingComparison& one : step.comparisons) {
-    database_.prepare("insert into breeding_comparison values (?, ?, ?, ?, 1)")
-        .bind(session_).bind(one.number).bind(one.better).bind(one.worse).run();
-  }
+  add(step);
   for (const BreedingChange& change : step.changes) apply(change.field, change.subject, change.after);
   bool joins = false;
   if (!step.gesture.empty()) {
@@ -208,10 +231,6 @@ void BreedingWriter::take(const BreedingStep& step) {
         .bind(session_).bind(head + 1).bind(step.label).bind(step.gesture).run();
     for (const BreedingChange& change : step.changes) add_change(head + 1, change);
     touch(head + 1);
-  }
-  if (count("select bytes from breeding_session where id = ?") > BreedingStore::kMostBytes) {
-    throw Error(fmt::format("the derivations and texts of a session have at most {} bytes: begin another one from your favourites",
-                            BreedingStore::kMostBytes));
   }
 }
 

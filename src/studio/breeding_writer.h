@@ -14,14 +14,19 @@ namespace espalier::studio {
 const char* name_of(BreedingField field);
 BreedingField breeding_field(const std::string& name);
 
+/// A session with nothing in it; its number. Throws Error where there are too many.
+std::int64_t add_session(Database& database, std::int64_t project, const BreedingHead& head);
+
 class BreedingWriter {
  public:
   BreedingWriter(Database& database, std::int64_t session) : database_(database), session_(session) {}
 
   /// Number of the step that undo takes back. Throws Error where there is no such session.
   std::int64_t head_step() const;
-  /// All of it. Throws Error beyond the budgets.
+  /// All of it. Throws Error beyond the budgets, as add does.
   void take(const BreedingStep& step);
+  /// What comes with it, and nothing that undo would know of.
+  void add(const BreedingStep& step);
   void apply(BreedingField field, std::int64_t subject, const std::optional<std::string>& value);
   /// `which`: "<=" or ">".
   void forget_steps(const char* which, std::int64_t number);

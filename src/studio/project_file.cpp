@@ -7,6 +7,7 @@
 
 #include "base/base64.h"
 #include "base/error.h"
+#include "studio/breeding_file.h"
 #include "studio/web_guard.h"
 
 namespace espalier::studio {
@@ -66,6 +67,7 @@ std::string project_file(const WholeProject& project) {
                                   {"derivation", one.derivation}});
     if (!one.picture.empty()) json["favourites"].back()["picture"] = encode_base64(one.picture);
   }
+  for (const WholeBreeding& one : project.breedings) json["breedings"].push_back(breeding_json(one));
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -97,6 +99,9 @@ WholeProject parse_project_file(std::string_view text) {
     project.favourites.push_back({0, item["score"], item["genes"].get<std::int64_t>(), text_of(item, "words", 10'000),
                                   text_of(item, "derivation", kMostModelBytes)});
     if (item.contains("picture")) project.favourites.back().picture = decode_base64(text_of(item, "picture", kMostPictureText));
+  }
+  if (json.contains("breedings")) {  // files of before the breeding room have none
+    for (const Json& item : list_of(json, "breedings", BreedingStore::kMostBreedings)) project.breedings.push_back(parse_breeding(item));
   }
   return project;
 }

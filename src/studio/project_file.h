@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "studio/breeding_store.h"
 #include "studio/shipped.h"
 #include "studio/store.h"
 #include "studio/workbench.h"
@@ -16,6 +17,7 @@ struct WholeProject {
   NewProject content;
   std::string shown;  // the model, as JSON; may be empty
   std::vector<StoredFavourite> favourites;
+  std::vector<WholeBreeding> breedings;  // changed last first
 };
 
 inline constexpr int kProjectFileVersion = 1;

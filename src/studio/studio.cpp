@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "studio/breeding_http.h"
 #include "studio/export_model.h"
 #include "studio/picture_type.h"
 #include "studio/project_file.h"
@@ -234,7 +235,7 @@ HttpResponse Studio::answer(const HttpRequest& request) {
 }
 
 HttpResponse Studio::answer_project(std::int64_t project, const HttpRequest& request, const std::string& rest) {
-  constexpr std::string_view kFiles = "files/", kExport = "export/", kFavourites = "favourites/";
+  constexpr std::string_view kFiles = "files/", kBreeding = "breeding/", kExport = "export/", kFavourites = "favourites/";
   if (rest.starts_with(kExport) && request.method == "GET") {
     const Turn turn(busy_);
     return export_project(project, rest.substr(kExport.size()));
@@ -244,6 +245,12 @@ HttpResponse Studio::answer_project(std::int64_t project, const HttpRequest& req
     std::string picture = store_.favourite_picture(project, take_number(number));
     if (picture.empty()) return not_found();
     return {200, std::string(picture_type(picture)), std::move(picture)};
+  }
+  if (rest.starts_with(kBreeding)) {
+    const Turn turn(busy_);
+    const BreedingAnswer answer = answer_breeding(store_, project, request, rest.substr(kBreeding.size()));
+    if (answer.changed) session(project)->breedings_changed();
+    return answer.response;
   }
   if (!rest.starts_with(kFiles)) return not_found();
   const std::string path = rest.substr(kFiles.size());
@@ -263,7 +270,9 @@ HttpResponse Studio::answer_project(std::int64_t project, const HttpRequest& req
 HttpResponse Studio::export_project(std::int64_t project, const std::string& format) {
   const StoredProjectState now = store_.open(project);
   if (format == "espalier") {
-    WholeProject whole{now.project.name, {now.state, {}}, store_.shown(project), store_.favourites(project)};
+    WholeProject whole{now.project.name, {now.state, {}}, store_.shown(project), store_.favourites(project), {}};
+    BreedingStore breedings(store_);
+    for (const BreedingSummary& one : breedings.list(project)) whole.breedings.push_back(breedings.whole(project, one.id));
     for (const StoredFile& file : now.state.files) whole.content.blobs[file.hash] = store_.blob(project, file.hash);
     return {200, "application/json", project_file(whole), fmt::format("project-{}.espalier", project)};
   }
@@ -294,6 +303,8 @@ std::int64_t Studio::import(std::string_view text) {
   const std::int64_t id = store_.create(project.name, project.content.state, project.content.blobs);
   store_.set_shown(id, project.shown);
   for (const StoredFavourite& favourite : project.favourites) store_.add_favourite(id, favourite);
+  // The one that was changed last comes last.
+  for (auto it = project.breedings.rbegin(); it != project.breedings.rend(); ++it) BreedingStore(store_).insert(id, *it);
   return id;
 }
 

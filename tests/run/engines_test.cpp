@@ -49,7 +49,7 @@ TEST_P(Engines, RunsAreReproduced) {
   EXPECT_TRUE(report.identical()) << ::testing::PrintToString(report.differences);
 }
 
-INSTANTIATE_TEST_SUITE_P(Run, Engines, ::testing::ValuesIn(kEngineNames),
+INSTANTIATE_TEST_SUITE_P(Run, Engines, ::testing::ValuesIn(testing::kGrowingEngines),
                          [](const auto& engine) { return std::string(engine.param); });
 
 Scene parse(const std::string& tables, const SceneOverrides& overrides = {}) {

@@ -120,7 +120,7 @@ TEST_P(StartingEngines, KeepWhatIsLocked) {
   EXPECT_TRUE(report.identical()) << ::testing::PrintToString(report.differences);
 }
 
-INSTANTIATE_TEST_SUITE_P(Run, StartingEngines, ::testing::ValuesIn(kEngineNames),
+INSTANTIATE_TEST_SUITE_P(Run, StartingEngines, ::testing::ValuesIn(testing::kGrowingEngines),
                          [](const auto& engine) { return std::string(engine.param); });
 
 TEST_F(Starting, TheBestIsNeverWorseThanTheStart) {

@@ -53,7 +53,7 @@ TEST_P(ResumingEngines, MakeTheFolderOfARunThatNeverStopped) {
   testing::expect_same_results(folder_ / "short", folder_ / "whole");
 }
 
-INSTANTIATE_TEST_SUITE_P(Run, ResumingEngines, ::testing::ValuesIn(kEngineNames),
+INSTANTIATE_TEST_SUITE_P(Run, ResumingEngines, ::testing::ValuesIn(testing::kGrowingEngines),
                          [](const auto& engine) { return std::string(engine.param); });
 
 TEST_F(Resuming, WithoutCheckpointsThereAreNone) {

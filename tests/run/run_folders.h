@@ -1,9 +1,12 @@
 #pragma once
 // Runs of scenes in folders, and what of them must be equal for equal seeds.
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 #include "io/mesh_import.h"
 #include "run/fixtures.h"
@@ -14,6 +17,13 @@
 namespace espalier::testing {
 
 /// Runs FOLDER/scene.toml into FOLDER/out.
+/// Those that the grammar of the fixtures suits. Genesis wants genomes that are one gene: tests/run/genesis_run_test.cpp.
+inline constexpr auto kGrowingEngines = [] {
+  std::array<std::string_view, kEngineNames.size() - 1> names;
+  std::copy_if(kEngineNames.begin(), kEngineNames.end(), names.begin(), [](auto name) { return name != "genesis"; });
+  return names;
+}();
+
 inline bool run_in(const TemporaryFolder& folder, const std::string& out, int threads = 1,
                    RunObserver* observer = nullptr, const std::atomic<bool>* stop = nullptr,
                    const SceneOverrides& overrides = {}) {

@@ -148,7 +148,7 @@ TEST_P(Sessions, DamagedStatesAreRefused) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Run, Sessions, ::testing::ValuesIn(kEngineNames),
+INSTANTIATE_TEST_SUITE_P(Run, Sessions, ::testing::ValuesIn(testing::kGrowingEngines),
                          [](const auto& engine) { return std::string(engine.param); });
 
 TEST(SearchSession, OfAnotherSearchAreRefused) {
