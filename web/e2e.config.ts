@@ -3,5 +3,5 @@ import { defineConfig } from "vitest/config";
 
 export default defineConfig({
   // Tried again once: a machine that draws without a graphics card may stall for seconds.
-  test: { retry: 1, include: ["e2e/**/*.test.ts"], environment: "node", testTimeout: 240_000, hookTimeout: 120_000, fileParallelism: false },
+  test: { retry: 1, include: ["e2e/**/*.test.ts"], environment: "node", testTimeout: 240_000, hookTimeout: 120_000, fileParallelism: false, expect: { poll: { timeout: 10_000 } } },
 });

@@ -30,6 +30,12 @@ async function faults(page: Page): Promise<string[]> {
     .flatMap((one) => one.nodes.map((node) => `${one.id} ${JSON.stringify(node.target)} ${node.failureSummary?.split("\n")[1] ?? ""}`));
 }
 
+async function breed(page: Page): Promise<void> {
+  await page.getByRole("button", { name: "Breed", exact: true }).click();
+  await page.getByRole("button", { name: "Start breeding" }).click();
+  await page.getByRole("heading", { name: "Generation 1" }).waitFor();
+}
+
 const states: readonly [string, (page: Page) => Promise<unknown>][] = [
   ["as it opens", async () => undefined],
   ["with a curve selected, all panels open", async (page) => {
@@ -56,6 +62,33 @@ const states: readonly [string, (page: Page) => Promise<unknown>][] = [
   }],
   ["with the keys", (page) => page.getByRole("button", { name: "Keys" }).click()],
   ["with the export menu", (page) => page.getByRole("button", { name: "Export" }).click()],
+  ["in the breeding room, at its start", (page) => page.getByRole("button", { name: "Breed", exact: true }).click()],
+  ["in the breeding room, with taste and ratings", async (page) => {
+    await breed(page);
+    for (const key of ["5", "ArrowRight", "1"]) await page.keyboard.press(key);
+    await page.getByRole("tab", { name: "Settings" }).click();
+    await page.getByLabel("Learn my taste").check();
+    await page.getByText("chosen from").waitFor();
+    await page.getByRole("tab", { name: /^Model/ }).click();
+    await page.getByText("for: a wide crown").waitFor();
+  }],
+  ["in the breeding room, one at a time, with ancestors", async (page) => {
+    await breed(page);
+    for (const key of ["5", "n"]) await page.keyboard.press(key);
+    await page.getByRole("heading", { name: "Generation 2" }).waitFor();
+    await page.getByRole("tab", { name: "Ancestors" }).click();
+    await page.keyboard.press("o");
+  }],
+  ["in the breeding room, between A and B, with stars", async (page) => {
+    await breed(page);
+    await page.getByRole("button", { name: "Stars" }).click();
+    await page.keyboard.press("p");
+  }],
+  ["in the breeding room, with a blend", async (page) => {
+    await breed(page);
+    for (const key of ["x", "ArrowRight", "x", "ArrowRight", "x"]) await page.keyboard.press(key);
+    await page.getByRole("region", { name: "The blend" }).waitFor();
+  }],
   ["with the log", async (page) => {
     await page.getByRole("tab", { name: "Log" }).click();
   }],

@@ -10,6 +10,8 @@ import "./styles/theme.css";
 import "./styles/controls.css";
 import "./styles/layout.css";
 import "./styles/panels.css";
+import "./styles/breeding.css";
+import "./styles/breeding_side.css";
 
 const address = window.location.href;
 const token = tokenOf(address);

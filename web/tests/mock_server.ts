@@ -7,6 +7,7 @@ import { fileURLToPath } from "node:url";
 import type { Gene, Message, Request, SearchState, Shown } from "../src/api";
 import { boxMeshes, model } from "./mock/model.ts";
 import { MockProject } from "./mock/project.ts";
+import { MockRoom, type Voice } from "./mock/room.ts";
 import { EMPTY, TREE, TREE_SCENE } from "./mock/samples.ts";
 import { MockSocket } from "./mock/socket.ts";
 
@@ -21,7 +22,9 @@ export class MockServer {
   readonly received: Request[] = [];
   /** The page opens the newest: always the first. */
   projects: MockProject[] = [new MockProject(1, "Bonsai", TREE, TREE_SCENE), Object.assign(new MockProject(2, "Box", EMPTY, {}), { changed: Date.now() / 1000 - 60 })];
+  readonly room = new MockRoom();
   private sockets = new Map<MockSocket, number | null>();
+  private voices = new Map<MockSocket, Voice>();
   private server = createServer((request, response) => this.http(request, response));
   private port = 0;
   private models = 0;
@@ -39,7 +42,13 @@ export class MockServer {
       const socket = new MockSocket(request, stream);
       this.sockets.set(socket, null);
       socket.onText = (text) => this.receive(socket, JSON.parse(text) as Request);
-      socket.onClose = () => this.sockets.delete(socket);
+      const voice: Voice = { say: (message) => this.say(socket, message), bytes: (data) => socket.sendBinary(data) };
+      this.voices.set(socket, voice);
+      socket.onClose = () => {
+        this.sockets.delete(socket);
+        this.voices.delete(socket);
+        this.room.inside.delete(voice);
+      };
       this.sendProjects(socket);
     });
     await new Promise<void>((resolve) => this.server.listen(port, "127.0.0.1", resolve));
@@ -80,6 +89,11 @@ export class MockServer {
         response.end(path);
       });
       return;
+    }
+    const bred = /^\/projects\/\d+\/breeding\/\d+\/(export|model\/\d+\/\w+|species\/\d+\/\d+\/\d+)$/.exec(url.pathname);
+    if (bred !== null && url.searchParams.get("token") === this.token) {
+      const name = bred[1]!.replace(/\//g, "-");
+      return void response.writeHead(200, { "Content-Type": "application/octet-stream", "Content-Disposition": `attachment; filename="${name}"` }).end(name);
     }
     const favourite = /^\/projects\/(\d+)\/favourites\/(\d+)$/.exec(url.pathname);
     const picture = favourite && this.projects.find((one) => one.id === Number(favourite[1]))?.pictures.get(Number(favourite[2]));
@@ -189,6 +203,7 @@ export class MockServer {
         this.broadcast(named!);
         this.say(socket, this.search);
         this.show(named!);
+        this.say(socket, this.room.list());
         return done();
       case "create_project": {
         const made = new MockProject(Math.max(0, ...this.projects.map((one) => one.id)) + 1, message.name, message.sample ? TREE : EMPTY, message.sample ? TREE_SCENE : {});
@@ -213,6 +228,16 @@ export class MockServer {
         break;
     }
     if (project === undefined) return failed("no project is open");
+    const bred = this.room.handle(message, this.voices.get(socket)!, (said) => [...this.sockets.keys()].forEach((one) => this.say(one, said)));
+    if (bred !== null && bred !== "") return failed(bred);
+    if (message.kind === "keep_individual") {
+      const id = Date.now(), picture = message.picture !== undefined;
+      if (message.picture !== undefined) project.pictures.set(id, Buffer.from(message.picture, "base64"));
+      project.favourites = [...project.favourites, { id, score: 0, genes: 2, words: `from the breeding room: ${message.individual}`, picture }];
+      project.touch();
+      this.broadcast(project);
+    }
+    if (bred !== null) return done();
     switch (message.kind) {
       case "edit":
         project.edit(message.label, message.gesture, message.grammar, message.scene);

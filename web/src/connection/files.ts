@@ -2,6 +2,8 @@
 
 export type ExportFormat = "glb" | "obj" | "ply" | "stl" | "png" | "zip" | "espalier";
 
+export type IndividualFormat = Exclude<ExportFormat, "espalier">;
+
 export class Files {
   constructor(
     private readonly base: string,
@@ -41,6 +43,27 @@ export class Files {
     const text = await this.post("projects/import", content);
     const number = /\d+/.exec(text);
     if (number === null) throw new Error("The server did not say which project it made.");
+    return Number(number[0]);
+  }
+
+  /** A session of the breeding room as a file. */
+  breedingUrl(project: number, session: number): string {
+    return this.address(`projects/${project}/breeding/${session}/export`);
+  }
+
+  individualUrl(project: number, session: number, individual: number, format: IndividualFormat): string {
+    return this.address(`projects/${project}/breeding/${session}/model/${individual}/${format}`);
+  }
+
+  /** A zip of `count` relatives, each of at most `triangles`. */
+  speciesUrl(project: number, session: number, individual: number, count: number, triangles: number): string {
+    return this.address(`projects/${project}/breeding/${session}/species/${individual}/${count}/${triangles}`);
+  }
+
+  /** Number of the new session. */
+  async importBreeding(project: number, content: Blob): Promise<number> {
+    const number = /\d+/.exec(await this.post(`projects/${project}/breeding/import`, content));
+    if (number === null) throw new Error("The server did not say which session it made.");
     return Number(number[0]);
   }
 

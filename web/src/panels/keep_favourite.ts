@@ -9,7 +9,7 @@ export async function keepFavourite(studio: Studio): Promise<void> {
   await studio.ask({ kind: "keep_favourite", ...picture });
 }
 
-async function base64Of(blob: Blob): Promise<string> {
+export async function base64Of(blob: Blob): Promise<string> {
   const bytes = new Uint8Array(await blob.arrayBuffer());
   return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
 }

@@ -1,4 +1,5 @@
 import { useEffect, useState } from "preact/hooks";
+import { RoomPage } from "../breeding/room_page";
 import { GrammarPane } from "../editor/grammar_pane";
 import { AttributesPanel } from "../panels/attributes";
 import { FavouritesStrip } from "../panels/favourites";
@@ -42,7 +43,7 @@ export function App({ studio }: { studio: Studio }) {
   };
   return (
     <StudioContext.Provider value={studio}>
-      <div class="studio" style={{ "--left": `${left}px`, "--right": `${right}px`, "--bottom": `${bottom}px` }}>
+      <div class={studio.room.here.value ? "studio in-room" : "studio"} style={{ "--left": `${left}px`, "--right": `${right}px`, "--bottom": `${bottom}px` }}>
         <Toolbar />
         <section class="left" aria-label="Grammar">
           <GrammarPane />
@@ -75,6 +76,7 @@ export function App({ studio }: { studio: Studio }) {
             <DensityPanel />
           </div>
         </aside>
+        {studio.room.here.value && <RoomPage />}
         <Notices />
       </div>
       {dialog === "projects" && <ProjectsDialog />}

@@ -1,9 +1,13 @@
 // Keys of the page: the same list is the sheet that `?` shows.
+import { RoomKeys } from "../breeding/room_keys_sheet";
+import { roomKeyFor, whereOf } from "../breeding/room_keys";
+import { runRoomAction } from "../breeding/run_action";
 import type { Side, Tool } from "../view/host";
 import type { Studio } from "../store/studio";
 import { countOf } from "../store/scene";
 import { Dialog } from "./dialog";
 import { keepFavourite } from "../panels/keep_favourite";
+import { useStudio } from "./studio_context";
 import { currentView } from "./view_access";
 
 export interface Shortcut {
@@ -93,6 +97,7 @@ export const SHORTCUTS: readonly Shortcut[] = [
     studio.state.dialog.value = "projects";
   } },
   { key: "e", mod: true, words: "To the grammar and back to the view", group: "Page", everywhere: true, run: () => switchFocus() },
+  { key: "b", mod: true, words: "To the breeding room and back", group: "Page", everywhere: true, run: (studio) => studio.room.go(!studio.room.here.value) },
   { key: "?", words: "This sheet", group: "Page", run: (studio) => {
     studio.state.dialog.value = "shortcuts";
   } },
@@ -137,9 +142,18 @@ export function listenForShortcuts(studio: Studio): () => void {
   const onKeyDown = (event: KeyboardEvent) => {
     if (event.defaultPrevented || document.querySelector("dialog[open]") !== null) return;
     const target = event.composedPath()[0];
+    const here = studio.room.here.value;
+    if (here && studio.room.state.breeding.value !== null && !studio.room.state.choosing.value) {
+      const action = roomKeyFor(event, whereOf(target, takesText(target)), studio.room.state.close.value.kind === "pairs");
+      if (action !== null) {
+        event.preventDefault();
+        return runRoomAction(studio, action);
+      }
+    }
     if (event.key === " " && takesSpace(target)) return;
     const shortcut = shortcutFor(event, takesText(target));
-    if (shortcut === undefined) return;
+    // In the room only what belongs to the page as a whole.
+    if (shortcut === undefined || (here && shortcut.group !== "Page")) return;
     event.preventDefault();
     shortcut.run!(studio);
   };
@@ -153,7 +167,8 @@ export function keyNames(shortcut: Shortcut): string[] {
 }
 
 export function ShortcutsDialog({ onClose }: { onClose(): void }) {
-  const groups = [...new Set(SHORTCUTS.map((one) => one.group))];
+  const here = useStudio().room.here.value;
+  const groups = [...new Set(SHORTCUTS.map((one) => one.group))].filter((group) => !here || group === "Page");
   return (
     <Dialog title="Keys" kind="shortcuts" onClose={onClose}>
       <div class="shortcut-groups">
@@ -170,6 +185,7 @@ export function ShortcutsDialog({ onClose }: { onClose(): void }) {
             </dl>
           </section>
         ))}
+        {here && <RoomKeys />}
         <section aria-label="Numbers">
           <h3>Numbers and sliders</h3>
           <dl>

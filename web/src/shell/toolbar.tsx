@@ -1,3 +1,4 @@
+import { Choice } from "../controls/choice";
 import { IconButton } from "../controls/fields";
 import { Icon, type IconName } from "../controls/icons";
 import { ExportMenu } from "../panels/export_menu";
@@ -10,6 +11,11 @@ const kThemes: readonly { theme: Theme; icon: IconName }[] = [
   { theme: "dark", icon: "moon" },
 ];
 
+const kRooms = [
+  { value: "model", name: "Model", words: "The editor (Ctrl-B)" },
+  { value: "breed", name: "Breed", words: "The breeding room (Ctrl-B)" },
+] as const;
+
 export function Toolbar() {
   const studio = useStudio();
   const { state } = studio;
@@ -17,7 +23,10 @@ export function Toolbar() {
   const offline = state.status.value.kind !== "open";
   const theme = studio.preferences.value.theme;
   const at = kThemes.findIndex((one) => one.theme === theme);
-  const pending = studio.edits.size.value > 0;
+  const here = studio.room.here.value;
+  // The room has steps of its own to take back.
+  const line = here ? studio.room.state.breeding.value : document;
+  const pending = !here && studio.edits.size.value > 0;
   const name = document?.project.name ?? "No project";
   return (
     <header class="toolbar">
@@ -25,18 +34,19 @@ export function Toolbar() {
       <button type="button" class="button project-button" aria-haspopup="dialog" title="Projects (Ctrl-O)" onClick={() => (state.dialog.value = "projects")}>
         <Icon name="folder" /><span>{name}</span><Icon name="down" />
       </button>
+      <Choice label="Room" value={here ? "breed" : "model"} choices={kRooms} onChange={(room) => studio.room.go(room === "breed")} />
       <span class="toolbar-group" role="group" aria-label="History">
-        <IconButton label={document?.undo === undefined ? "Undo" : `Undo: ${document.undo}`} keys="Ctrl-Z" disabled={offline || (document?.undo === undefined && !pending)} onClick={() => studio.undo()}>
+        <IconButton label={line?.undo === undefined ? "Undo" : `Undo: ${line.undo}`} keys="Ctrl-Z" disabled={offline || (line?.undo === undefined && !pending)} onClick={() => (here ? studio.room : studio).undo()}>
           <Icon name="undo" />
         </IconButton>
-        <IconButton label={document?.redo === undefined ? "Redo" : `Redo: ${document.redo}`} keys="Ctrl-Shift-Z" disabled={offline || document?.redo === undefined} onClick={() => studio.redo()}>
+        <IconButton label={line?.redo === undefined ? "Redo" : `Redo: ${line.redo}`} keys="Ctrl-Shift-Z" disabled={offline || line?.redo === undefined} onClick={() => (here ? studio.room : studio).redo()}>
           <Icon name="redo" />
         </IconButton>
       </span>
       <span class="toolbar-space" />
       <Connection />
-      <SearchButton />
-      <ExportMenu />
+      {!here && <SearchButton />}
+      {!here && <ExportMenu />}
       <IconButton label={`Theme: ${theme}`} onClick={() => studio.setPreferences({ theme: kThemes[(at + 1) % kThemes.length]!.theme })}>
         <Icon name={kThemes[at]!.icon} />
       </IconButton>

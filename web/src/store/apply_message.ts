@@ -1,9 +1,10 @@
 import { batch } from "@preact/signals";
 import type { Message } from "../api";
+import type { RoomMessage } from "../breeding/apply_room";
 import { addLog, forgetProject, type State } from "./state";
 
 /** What a text message changes. `done` and `failed` are the connection's own business. */
-export function applyMessage(state: State, message: Message): void {
+export function applyMessage(state: State, message: Exclude<Message, RoomMessage>): void {
   batch(() => {
     switch (message.kind) {
       case "projects":
@@ -44,12 +45,6 @@ export function applyMessage(state: State, message: Message): void {
         break;
       case "done":
       case "failed":
-        break;
-      case "breedings":
-      case "breeding":
-      case "bred":
-      case "individual_genes":
-      case "lineage":
         break;
       default:
         addLog(state, "warning", `The server sent a message that this page does not know: ${(message as { kind: string }).kind}.`);

@@ -1,5 +1,6 @@
 // What this browser remembers: nothing of it belongs to a project.
 import { effect, signal, type Signal } from "@preact/signals";
+import { kRateBy, type RateBy } from "../breeding/rating";
 
 export type Theme = "system" | "dark" | "light";
 
@@ -20,6 +21,11 @@ export interface Preferences {
   field: boolean;
   targets: boolean;
   ground: boolean;
+  /** Of the breeding room: what clicks on models mean, whether all are seen on one scale, and whether they turn. */
+  rateBy: RateBy;
+  oneScale: boolean;
+  turning: boolean;
+  roomRight: number;
 }
 
 export const PREFERENCE_DEFAULTS: Preferences = {
@@ -35,6 +41,10 @@ export const PREFERENCE_DEFAULTS: Preferences = {
   field: false,
   targets: true,
   ground: true,
+  rateBy: "points",
+  oneScale: false,
+  turning: true,
+  roomRight: 330,
 };
 
 const kKey = "espalier-studio";
@@ -56,6 +66,7 @@ export function readPreferences(text: string | null): Preferences {
       } else if (typeof value === typeof standard && (typeof value !== "number" || Number.isFinite(value))) out[key] = value;
     }
   if (!["system", "dark", "light"].includes(out["theme"] as string)) out["theme"] = "system";
+  if (!(kRateBy as readonly unknown[]).includes(out["rateBy"])) out["rateBy"] = PREFERENCE_DEFAULTS.rateBy;
   return out as unknown as Preferences;
 }
 

@@ -1,9 +1,12 @@
 // What a person can do, and the state that it changes. One history for all: undo and redo are the server's.
 import { batch, computed, type Signal } from "@preact/signals";
-import type { Camera, Curve, Document, Scene } from "../api";
+import type { Camera, Curve, Document, Message, Scene } from "../api";
 import { Connection, RequestFailed, type Ask, type Socket, type Status } from "../connection/connection";
 import { Files, freeName } from "../connection/files";
+import { isRoomMessage } from "../breeding/apply_room";
+import { Room } from "../breeding/room";
 import type { Look, ViewHost } from "../view/host";
+import { MessageError } from "../view/messages";
 import { applyBinary, applyMessage } from "./apply_message";
 import { EditQueue } from "./edit_queue";
 import { Genes } from "./genes";
@@ -65,6 +68,7 @@ export class Studio implements ViewHost {
   readonly searching = new Searching(this);
   readonly genes = new Genes(this);
   readonly visibility = new Visibility(this);
+  readonly room = new Room(this);
   private notices = 0;
 
   constructor(private readonly options: StudioOptions) {
@@ -77,12 +81,8 @@ export class Studio implements ViewHost {
       later: options.later,
       random: options.random,
       onStatus: (status) => this.onStatus(status),
-      onMessage: (message) => {
-        applyMessage(this.state, message);
-        if (message.kind === "projects") this.projects.onList();
-        if (message.kind === "document") this.projects.arrived(message.project.id);
-      },
-      onBinary: (kind, data) => applyBinary(this.state, kind, data),
+      onMessage: (message) => this.onMessage(message),
+      onBinary: (kind, data) => this.onBinary(kind, data),
       onNonsense: (text) => addLog(this.state, "warning", `The server sent ${text}.`),
     });
     this.edits = new EditQueue({
@@ -98,6 +98,25 @@ export class Studio implements ViewHost {
     this.state.status.value = status;
     if (status.kind !== "open") this.edits.pause();
     else this.projects.expectList();
+    if (status.kind !== "open") this.room.onLost();
+  }
+
+  private onMessage(message: Message): void {
+    const other = message.kind === "document" && message.project.id !== (this.state.confirmed.value?.project.id ?? message.project.id);
+    if (other) this.room.onOtherProject();
+    if (isRoomMessage(message)) this.room.onMessage(message);
+    else applyMessage(this.state, message);
+    if (message.kind === "projects") this.projects.onList();
+    if (message.kind === "document") this.projects.arrived(message.project.id);
+  }
+
+  private onBinary(kind: string, data: ArrayBuffer): void {
+    try {
+      if (!this.room.onBinary(kind, data)) applyBinary(this.state, kind, data);
+    } catch (error) {
+      if (!(error instanceof MessageError)) throw error;
+      addLog(this.state, "error", `The server sent what cannot be shown: ${error.message}.`);
+    }
   }
 
   /** Sends a request; tells the person when it fails. */
@@ -253,7 +272,7 @@ export class Studio implements ViewHost {
 
   /** Keeps what follows from the state itself; call once. */
   watch(): () => void {
-    const stops = [this.genes.watch(), this.visibility.watch(), watchReach(this, this.options.later)];
+    const stops = [this.genes.watch(), this.visibility.watch(), this.room.watch(), watchReach(this, this.options.later)];
     return () => stops.forEach((stop) => stop());
   }
 }

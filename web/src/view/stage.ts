@@ -19,18 +19,20 @@ export interface Opened {
   software: boolean;
 }
 
-/** A context on a canvas of its own, and whether the machine draws by processor. */
-export function openContext(): Opened | null {
+/** A context on a canvas of its own, and whether the machine draws by processor. `lasting`: what was drawn stays until it is drawn
+ *  over, smooth on any machine: for many small pictures that are not all drawn anew in every frame. */
+export function openContext(lasting = false): Opened | null {
   const create = (antialias: boolean): [HTMLCanvasElement, WebGL2RenderingContext | null] => {
     const canvas = document.createElement("canvas");
-    const options = { antialias, alpha: false, powerPreference: "high-performance", stencil: false } as const;
+    const options = { antialias, alpha: false, powerPreference: "high-performance", stencil: false, preserveDrawingBuffer: lasting } as const;
     return [canvas, canvas.getContext("webgl2", options) as WebGL2RenderingContext | null];
   };
-  const [canvas, context] = create(false);
+  const [canvas, context] = create(lasting);
   if (!context) return null;
   const names = context.getExtension("WEBGL_debug_renderer_info");
   const name = String(context.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : context.RENDERER));
   if (/swiftshader|llvmpipe|software|basic render/i.test(name)) return { canvas, context, software: true };
+  if (lasting) return { canvas, context, software: false };
   const [smooth, smoothContext] = create(true);
   if (!smoothContext) return { canvas, context, software: false };
   context.getExtension("WEBGL_lose_context")?.loseContext();

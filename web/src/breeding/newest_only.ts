@@ -1,0 +1,28 @@
+// Requests that a hand makes faster than they are answered: one is on its way, and what came meanwhile goes as one.
+
+export class NewestOnly<T> {
+  private next: T | null = null;
+  private busy = false;
+
+  /** `join` makes one of two that wait; `send` says whether it worked: if not, what waits is dropped. */
+  constructor(private readonly send: (what: T) => Promise<boolean>, private readonly join: (before: T, after: T) => T = (_, after) => after) {}
+
+  push(what: T): void {
+    this.next = this.next === null ? what : this.join(this.next, what);
+    if (!this.busy) void this.run();
+  }
+
+  clear(): void {
+    this.next = null;
+  }
+
+  private async run(): Promise<void> {
+    this.busy = true;
+    for (let what = this.next; what !== null; what = this.next) {
+      this.next = null;
+      if (!(await this.send(what))) break;
+    }
+    this.next = null;
+    this.busy = false;
+  }
+}
