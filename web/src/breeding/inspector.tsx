@@ -1,6 +1,6 @@
 // The selected individual: what can be done with it, what it is, and its genes.
 import { Icon } from "../controls/icons";
-import { thousands } from "../panels/search";
+import { thousands } from "../controls/number";
 import { useStudio } from "../shell/studio_context";
 import type { Bred, BredIndividual } from "../api";
 import { showNumber } from "../controls/number";
