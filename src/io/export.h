@@ -20,8 +20,8 @@ struct ExportOptions {
   std::optional<LevelOfDetail> detail = {};  // none: parts as the grammar makes them
 };
 
-/// Gives the number of triangles that were written. Throws Error naming the file (unknown ending, unwritable folder, full disk); then the old file, if any, is
-/// untouched.
+/// Gives the number of triangles that were written. Throws Error naming the file (unknown ending, unwritable folder,
+/// full disk); then the old file, if any, is untouched.
 std::uint64_t export_model(const std::string& path, const Model& model, const MeshTable& meshes,
                            const Surfaces& surfaces, const Provenance& provenance, const ExportOptions& options = {});
 

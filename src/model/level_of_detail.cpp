@@ -28,6 +28,8 @@ constexpr std::uint32_t kCollarSides = 6;   // limbs that have: one on a twig is
 constexpr LeafOutline kOutlines[LevelOfDetail::kCount] = {LeafOutline::fine, LeafOutline::plain, LeafOutline::coarse,
                                                           LeafOutline::coarse};
 
+constexpr std::uint64_t kLeafTriangles[LevelOfDetail::kCount] = {10, 4, 2, 2};  // two fewer than corners
+
 /// Pieces that are kept or left out as a whole.
 enum class Sort : std::uint8_t { limb, foliage, round, other };
 
@@ -131,7 +133,8 @@ class Leveller {
       const Limb& limb = limbs_.limbs[k];
       float size = 0;
       for (std::size_t j = 1; j < limb.joints.size(); ++j)
-        size += glm::length(limb.joints[j].at - limb.joints[j - 1].at) * (limb.joints[j].radius + limb.joints[j - 1].radius);
+        size += glm::length(limb.joints[j].at - limb.joints[j - 1].at) *
+                (limb.joints[j].radius + limb.joints[j - 1].radius);
       solids_.push_back({Sort::limb, false, k, size});
     }
     for (std::uint32_t i = 0; i < model_.instances.size(); ++i) {
@@ -169,7 +172,8 @@ class Leveller {
   std::uint32_t sides_of(const Instance& instance, std::uint32_t level) const {
     const Mat3& m = instance.model_from_mesh.basis;
     const float radius = 0.5f * std::max(glm::length(m[0]), glm::length(m[2]));
-    return std::min<std::uint32_t>(sides_of(radius, level), std::max<std::uint32_t>(meshes_.ref(instance.mesh).sides, 3));
+    const std::uint32_t asked = meshes_.ref(instance.mesh).sides;
+    return std::min(sides_of(radius, level), std::max(asked, 3u));
   }
 
   std::uint64_t triangles_of(const Piece& piece, std::uint32_t level) const {
@@ -185,7 +189,7 @@ class Leveller {
         [[fallthrough]];
       case MeshKind::cylinder: return 4 * sides - 4;
       case MeshKind::sphere: return std::uint64_t{2} * sides * (std::max<std::uint32_t>(sides / 2, 2) - 1);
-      case MeshKind::leaf: return kOutlines[level] == LeafOutline::fine ? 10 : kOutlines[level] == LeafOutline::plain ? 4 : 2;
+      case MeshKind::leaf: return kLeafTriangles[level];
       default: return meshes_.mesh(instance.mesh).triangles.size();
     }
   }

@@ -1,7 +1,7 @@
 #pragma once
-// Levels of detail: one model as four sets of triangles, of which each has about 40, 15 and 5 % of the finest one's.
-// Nothing is grown anew: the same limbs and leaves stand in the same places, with fewer sides, fewer of them, and what is
-// left of the leaves larger.
+// Levels of detail: one model as four sets of triangles, the coarser ones with about 40, 15 and 5 % of the finest.
+// Nothing is grown anew: the same limbs and leaves stand in the same places, with fewer sides, fewer of them, and what
+// is left of the leaves larger.
 
 #include <cstdint>
 #include <vector>

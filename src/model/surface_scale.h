@@ -11,8 +11,8 @@
 
 namespace espalier {
 
-/// The size of a part, to the nearest eighth of an octave along each axis (4.5 % at most): parts of nearly one size share
-/// a shape.
+/// The size of a part, to the nearest eighth of an octave along each axis (4.5 % at most): parts of nearly one size
+/// share a shape.
 struct PartSize {
   static constexpr std::int16_t kNone = -32768;  // no length
 

@@ -16,6 +16,7 @@ namespace {
 constexpr float kCollar = 0.3f;      // how much wider a limb is where it meets its host
 constexpr float kCollarRun = 1.6f;   // radii from there to where it has its own width again
 constexpr double kBetterFit = 0.75;   // pictures around that a tube may be off before their number changes
+constexpr float kThicknessMatters = 0.4f;  // a change of thickness is seen sooner than one of place
 constexpr float kThinForHost = 0.8f;  // of the host's radius; thicker limbs fork and need no collar
 
 bool finite(const LimbJoint& joint) {
@@ -36,7 +37,8 @@ std::vector<LimbJoint> usable(std::span<const LimbJoint> joints) {
 /// A direction across `axis`, the same for equal axes.
 Vec3 across(const Vec3& axis) {
   const Vec3 size = glm::abs(axis);
-  const Vec3 least = size.x <= size.y && size.x <= size.z ? Vec3(1, 0, 0) : size.z <= size.y ? Vec3(0, 0, 1) : Vec3(0, 1, 0);
+  const bool x = size.x <= size.y && size.x <= size.z;
+  const Vec3 least = x ? Vec3(1, 0, 0) : size.z <= size.y ? Vec3(0, 0, 1) : Vec3(0, 1, 0);
   return glm::normalize(least - axis * glm::dot(least, axis));
 }
 
@@ -96,8 +98,8 @@ double mean_girth(const std::vector<Ring>& rings) {
   return sum / rings.back().from_base;
 }
 
-/// How many pictures stand around the surface between each ring and the next. Where the girth changes so much that another
-/// number fits clearly better, that one goes on.
+/// How many pictures stand around the surface between each ring and the next. Where the girth changes so much that
+/// another number fits clearly better, that one goes on.
 std::vector<float> pictures(const std::vector<Ring>& rings, double metres) {
   std::vector<float> out;
   for (std::size_t k = 0; k + 1 < rings.size(); ++k) {
@@ -129,7 +131,8 @@ void add_end(Mesh& mesh, const Ring& ring, std::uint32_t sides, double metres, b
     add_vertex(mesh, ring.at + ring.radius * rim(ring, i, sides), up ? ring.along : -ring.along, uv);
   }
   for (std::uint32_t k = 2; k < sides; ++k)
-    mesh.triangles.push_back(up ? Triangle{first, first + k, first + k - 1} : Triangle{first, first + k - 1, first + k});
+    mesh.triangles.push_back(up ? Triangle{first, first + k, first + k - 1}
+                                : Triangle{first, first + k - 1, first + k});
 }
 
 }  // namespace
@@ -199,7 +202,7 @@ std::vector<LimbJoint> without_straight_joints(std::span<const LimbJoint> joints
     const float share = squared > 0 ? std::clamp(glm::dot(b.at - a.at, line) / squared, 0.0f, 1.0f) : 0;
     const float off = glm::length(b.at - (a.at + share * line));
     const float wider = std::abs(b.radius - (a.radius + share * (c.radius - a.radius)));
-    if (off > tolerance * b.radius || wider > tolerance * b.radius) out.push_back(b);
+    if (off > tolerance * b.radius || wider > kThicknessMatters * tolerance * b.radius) out.push_back(b);
   }
   return out;
 }

@@ -12,8 +12,8 @@ namespace espalier {
 
 struct TubeLook {
   std::uint32_t sides = 8;  // >= 3
-  /// Metres of bark that a picture covers: v is the length of the surface from the base over `metres`; around stands the
-  /// whole number of pictures, at least 1, that fits the girth, another where the tube has grown much thinner. 0: a
+  /// Metres of bark that a picture covers: v is the length of the surface from the base over `metres`; around stands
+  /// the whole number of pictures, at least 1, that fits the girth, another where the tube has grown much thinner. 0: a
   /// picture is as wide and as tall as the mean girth.
   float metres = 0;
 };
@@ -28,7 +28,7 @@ void add_tube(Mesh& mesh, std::span<const LimbJoint> joints, const TubeLook& loo
 std::vector<LimbJoint> with_collar(const Limb& limb);
 
 /// Fewer joints for much the same tube: those that stand within `tolerance` radii of the line between their neighbours,
-/// and as thick as that line is there to within as much, are left out. Ends stay.
+/// and as thick as that line is there to within 0.4 of that, are left out. Ends stay.
 std::vector<LimbJoint> without_straight_joints(std::span<const LimbJoint> joints, float tolerance);
 
 /// Triangles of a tube with so many joints, none of them of radius 0.

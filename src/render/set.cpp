@@ -222,7 +222,8 @@ class SetBuilder {
 Set build_set(const Model& model, const MeshTable& meshes, const Surfaces& surfaces,
               const std::vector<Mesh>& ghosts, bool full, const std::optional<LevelOfDetail>& detail) {
   const std::vector<Material>& materials = surfaces.materials();
-  Parts parts = detail ? parts_at(model, meshes, materials, *detail, full) : collect_parts(model, meshes, full, materials);
+  Parts parts = detail ? parts_at(model, meshes, materials, *detail, full)
+                       : collect_parts(model, meshes, full, materials);
   return SetBuilder(std::move(parts), ghosts, detail.has_value()).build(surfaces);
 }
 

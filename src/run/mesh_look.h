@@ -13,8 +13,8 @@ namespace espalier {
 inline constexpr Choice<Joints> kJointsChoices[] = {{"separate", Joints::separate}, {"smooth", Joints::smooth}};
 std::string_view name_of(Joints joints);
 
-/// `joints`: "separate", "smooth" or empty; `level` 0..3. Nothing where neither is given: parts as the grammar makes them.
-/// Throws Error.
+/// `joints`: "separate", "smooth" or empty; `level` 0..3. Nothing where neither is given: parts as the grammar makes
+/// them. Throws Error.
 std::optional<LevelOfDetail> read_level_of_detail(const std::string& joints, const std::optional<std::uint32_t>& level);
 
 /// `joints = ".."` and `lod = ..`, and back from such a section or text. Throws Error.

@@ -241,11 +241,15 @@ TEST_F(Cmd, ScoreInspectReproduceAndExportWorkOnARun) {
 
 TEST_F(Cmd, ExportWritesLevelsOfDetail) {
   const std::string grammar = ESPALIER_SOURCE_DIR "/grammars/arboretum.esp";
-  ASSERT_EQ(espalier({"sample", grammar, "-D", "most_spans=100", "-n", "1", "--only-genes", "--out", "s"}).exit_code, 0);
+  const ChildResult grown =
+      espalier({"sample", grammar, "-D", "most_spans=100", "-n", "1", "--only-genes", "--out", "s"});
+  ASSERT_EQ(grown.exit_code, 0) << grown.err;
   const ChildResult all = espalier({"export", "s/01.derivation.json", "-o", "t.glb", "--joints", "smooth", "--lods"});
   ASSERT_EQ(all.exit_code, 0) << all.err;
-  EXPECT_THAT(all.out, AllOf(HasSubstr("level  triangles  of lod0"), HasSubstr("100.0 %"), HasSubstr("wrote t-lod3.glb")));
-  const ChildResult one = espalier({"export", "s/01.derivation.json", "-o", "one.glb", "--joints", "smooth", "--lod", "2"});
+  EXPECT_THAT(all.out, AllOf(HasSubstr("level  triangles  of lod0"), HasSubstr("100.0 %"),
+                             HasSubstr("wrote t-lod3.glb")));
+  const ChildResult one =
+      espalier({"export", "s/01.derivation.json", "-o", "one.glb", "--joints", "smooth", "--lod", "2"});
   ASSERT_EQ(one.exit_code, 0) << one.err;
   const auto bytes = [&](const std::string& name) { return read_text((fs::path(folder_.path()) / name).string()); };
   EXPECT_EQ(bytes("one.glb"), bytes("t-lod2.glb"));
@@ -263,7 +267,9 @@ TEST_F(Cmd, ExportWritesLevelsOfDetail) {
   ASSERT_EQ(picture({"--joints", "smooth", "--lod", "3"}).exit_code, 0);
   EXPECT_EQ(espalier({"reproduce", "p.png"}).exit_code, 0);
   EXPECT_EQ(picture({"--lod", "1", "--view", "bones"}).exit_code, 2);
-  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--lod", "4"}, {"--joints", "welded"}, {"--lod", "1", "--lods"}}) {
+  const std::vector<std::vector<std::string>> refusals = {
+      {"--lod", "4"}, {"--joints", "welded"}, {"--lod", "1", "--lods"}};
+  for (const std::vector<std::string>& wrong : refusals) {
     std::vector<std::string> line = {"export", "s/01.derivation.json", "-o", "wrong.glb"};
     line.insert(line.end(), wrong.begin(), wrong.end());
     const ChildResult refused = espalier(line);
@@ -276,8 +282,9 @@ TEST_F(Cmd, SpeciesOfTheArboretumAreWhole) {
   const fs::path grammars = ESPALIER_SOURCE_DIR "/grammars";
   std::size_t species = 0;
   for (const auto& entry : fs::directory_iterator(grammars / "species")) {
-    const ChildResult made = espalier({"export", entry.path().string(), "--grammar", (grammars / "arboretum.esp").string(),
-                                       "-o", "tree.glb", "--lod", "3"});
+    const ChildResult made =
+        espalier({"export", entry.path().string(), "--grammar", (grammars / "arboretum.esp").string(), "-o", "tree.glb",
+                  "--lod", "3"});
     EXPECT_EQ(made.exit_code, 0) << made.err << "run script/species";
     ++species;
   }

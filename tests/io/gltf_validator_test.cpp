@@ -69,7 +69,7 @@ TEST(GltfValidator, AcceptsTinyHugeAndFlatParts) {
   expect_clean(model);
 }
 
-/// Trees with bark and leaves, their pictures to scale: as the grammar makes them, and at the finest and coarsest level.
+/// Trees with bark and leaves, their pictures to scale: as the grammar makes them, at the finest and coarsest level.
 TEST(GltfValidator, AcceptsTreesAtAllLevels) {
   const auto graph = test::compile_shipped("arboretum.esp", {{"most_spans", "100"}});
   AssimpMeshSource source;
@@ -89,7 +89,8 @@ TEST(GltfValidator, AcceptsTreesAtAllLevels) {
       export_model(path, model, meshes, surfaces, test_provenance(), {.detail = look});
       const nlohmann::json report = validate(path);
       if (report.is_null()) return;
-      for (const char* kind : {"numErrors", "numWarnings", "numInfos", "numHints"}) EXPECT_EQ(report[kind], 0) << report.dump(1);
+      for (const char* kind : {"numErrors", "numWarnings", "numInfos", "numHints"})
+        EXPECT_EQ(report[kind], 0) << report.dump(1);
     }
   }
 }

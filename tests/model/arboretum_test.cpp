@@ -29,7 +29,8 @@ class Arboretum : public testing::Test {
     std::fill(derivation.draws.begin(), derivation.draws.end(), 0x80000000u);
     for (const auto& [name, u] : quantiles) {
       const auto& draws = graph_->rules[0].draws;
-      const auto at = std::find_if(draws.begin(), draws.end(), [&, &gene = name](const DrawComponent& d) { return d.name == "Tree." + gene; });
+      const auto named = [&gene = name](const DrawComponent& d) { return d.name == "Tree." + gene; };
+      const auto at = std::find_if(draws.begin(), draws.end(), named);
       EXPECT_NE(at, draws.end()) << name;
       derivation.draws.at(static_cast<std::size_t>(at - draws.begin())) =
           u >= 1 ? kMost : static_cast<std::uint32_t>(u * 4294967296.0);
@@ -43,9 +44,8 @@ class Arboretum : public testing::Test {
     return MeshTable(*graph_, "", files);
   }
   std::size_t count(const Model& model, MeshKind kind) const {
-    return static_cast<std::size_t>(std::count_if(model.instances.begin(), model.instances.end(), [&](const Instance& i) {
-      return graph_->meshes[i.mesh].kind == kind;
-    }));
+    const auto is = [&](const Instance& i) { return graph_->meshes[i.mesh].kind == kind; };
+    return static_cast<std::size_t>(std::count_if(model.instances.begin(), model.instances.end(), is));
   }
   Bounds box(const Model& model) const { return bounds(model, meshes(), true); }
 
@@ -82,11 +82,13 @@ TEST_F(Arboretum, TheSeedGeneAloneDecidesItsChances) {
 TEST_F(Arboretum, GrowsThreeHabits) {
   // How many pieces of wood are at least a sixth as thick as the stem: a palm has its stem and no bough.
   const auto thick = [&](const Model& model) {
+    const auto width = [&](const Instance& part) {
+      return graph_->meshes[part.mesh].kind == MeshKind::cone ? size_of(part).x : 0.0f;
+    };
     float widest = 0;
-    for (const Instance& part : model.instances) widest = std::max(widest, size_of(part).x * (graph_->meshes[part.mesh].kind == MeshKind::cone));
     std::size_t n = 0;
-    for (const Instance& part : model.instances)
-      n += graph_->meshes[part.mesh].kind == MeshKind::cone && size_of(part).x > widest / 6;
+    for (const Instance& part : model.instances) widest = std::max(widest, width(part));
+    for (const Instance& part : model.instances) n += width(part) > widest / 6;
     return n;
   };
   const Model oak = tree(oak_), pine = tree(pine_), palm = tree(palm_);
@@ -101,7 +103,7 @@ TEST_F(Arboretum, RootsAreCounted) {
     Values values = oak_;
     values["roots"] = (roots + 0.5) / 8;
     std::size_t low = 0;
-    for (const Instance& part : tree(values).instances) {  // spans that begin at the trunk's foot, beside the flare's four
+    for (const Instance& part : tree(values).instances) {  // spans that begin a little above the trunk's foot
       const Frame& f = part.model_from_mesh;
       const Vec3 base = f.origin - 0.5f * f.basis[1];
       low += graph_->meshes[part.mesh].kind == MeshKind::cone && glm::length(base - Vec3(0, 0.42f * 0.24f, 0)) < 1e-4f;
@@ -124,8 +126,10 @@ TEST_F(Arboretum, CrownGenesShapeTheCrown) {
     values["weeping"] = u;
     const Model model = tree(values);
     double sum = 0, n = 0;
-    for (const Instance& part : model.instances)
-      if (graph_->meshes[part.mesh].kind == MeshKind::leaf) sum += static_cast<double>(part.model_from_mesh.origin.y), ++n;
+    for (const Instance& part : model.instances) {
+      if (graph_->meshes[part.mesh].kind != MeshKind::leaf) continue;
+      sum += static_cast<double>(part.model_from_mesh.origin.y), ++n;
+    }
     return sum / n / static_cast<double>(box(model).max.y);
   };
   EXPECT_LT(low_leaves(1), low_leaves(0) - 0.05);
@@ -216,9 +220,11 @@ TEST_F(Arboretum, HasFewPictures) {
     const std::vector<Material> materials = materials_of(*graph_, one.model);
     std::vector<char> shown(materials.size());
     for (const Instance& part : one.model.instances) shown[part.material] = true;
-    for (std::size_t k = 0; k < materials.size(); ++k)
-      if (shown[k] && materials[k].textured() && std::find(pictures.begin(), pictures.end(), materials[k].texture) == pictures.end())
-        pictures.push_back(materials[k].texture);
+    for (std::size_t k = 0; k < materials.size(); ++k) {
+      const TextureRef& texture = materials[k].texture;
+      if (!shown[k] || !materials[k].textured()) continue;
+      if (std::find(pictures.begin(), pictures.end(), texture) == pictures.end()) pictures.push_back(texture);
+    }
     EXPECT_GE(pictures.size(), 1u);
     EXPECT_LE(pictures.size(), 10u);
   }

@@ -69,7 +69,8 @@ TEST(LevelOfDetail, SharesAreUsed) {
     const auto finest = static_cast<double>(triangle_count(tree.at(0, joints)));
     ASSERT_GT(finest, 20'000);
     for (std::uint32_t level = 1; level < LevelOfDetail::kCount; ++level)
-      EXPECT_GT(static_cast<double>(triangle_count(tree.at(level, joints))), 0.6 * LevelOfDetail::kShares[level] * finest);
+      EXPECT_GT(static_cast<double>(triangle_count(tree.at(level, joints))),
+                0.6 * LevelOfDetail::kShares[level] * finest);
   }
 }
 
@@ -96,7 +97,8 @@ bool equal(const Parts& a, const Parts& b) {
   if (a.shapes.size() != b.shapes.size() || a.parts.size() != b.parts.size()) return false;
   for (std::size_t k = 0; k < a.shapes.size(); ++k) {
     const Mesh &x = a.shapes[k].mesh, &y = b.shapes[k].mesh;
-    if (x.positions != y.positions || x.normals != y.normals || x.uvs != y.uvs || x.triangles != y.triangles) return false;
+    if (x.positions != y.positions || x.normals != y.normals) return false;
+    if (x.uvs != y.uvs || x.triangles != y.triangles) return false;
   }
   return true;
 }
@@ -223,7 +225,8 @@ TEST(LevelOfDetail, OfNothingIsNothing) {
 
 /// Metres of surface per unit of uv, of a triangle: along u and along v.
 Vec2 metres_per_unit(const Mesh& mesh, const Triangle& t, const Vec3& size) {
-  const Vec3 a = mesh.positions[t[0]] * size, ab = mesh.positions[t[1]] * size - a, ac = mesh.positions[t[2]] * size - a;
+  const Vec3 a = mesh.positions[t[0]] * size;
+  const Vec3 ab = mesh.positions[t[1]] * size - a, ac = mesh.positions[t[2]] * size - a;
   const Vec2 u = mesh.uvs[t[1]] - mesh.uvs[t[0]], v = mesh.uvs[t[2]] - mesh.uvs[t[0]];
   const float area = u.x * v.y - u.y * v.x;
   return {glm::length((ab * v.y - ac * u.y) / area), glm::length((ac * u.x - ab * v.x) / area)};

@@ -137,7 +137,10 @@ TEST(Tube, PicturesKeepTheirProportions) {
 /// A ring has the least turn against the one before: on a flat bend none about the axis.
 TEST(Tube, DoesNotTwist) {
   std::vector<LimbJoint> bend;
-  for (int k = 0; k < 12; ++k) bend.push_back({{sine(0.2f * static_cast<float>(k)), cosine(0.2f * static_cast<float>(k)), 0}, 0.1f});
+  for (int k = 0; k < 12; ++k) {
+    const float a = 0.2f * static_cast<float>(k);
+    bend.push_back({{sine(a), cosine(a), 0}, 0.1f});
+  }
   const Mesh mesh = tube(bend, {4, 1});
   for (std::size_t k = 0; k < bend.size(); ++k) {
     const Vec3 out = mesh.positions[5 * k] - bend[k].at;  // across the bend it stays, or turns with it
