@@ -15,15 +15,15 @@ struct Opinion {
   double rating = 0;
 };
 
-/// Of two candidates, this one was preferred. Counts as a rating half a step above, and one half a step below, what else is
-/// said of them.
+/// Of two candidates, this one was preferred: their ratings are taken to differ by one spread of the ratings (by 1 where
+/// there are none).
 struct Comparison {
   std::vector<double> better, worse;
 };
 
 struct TasteSettings {
   double noise = 0.3;  // standard deviation of a person's ratings, as a share of their spread; above 0, at most 10
-  std::size_t most_opinions = 600;  // the latest are kept; learning takes time with their cube. 1..2000
+  std::size_t most_opinions = 600;  // the latest are kept, and as many comparisons; time goes with the cube. 1..2000
 
   bool operator==(const TasteSettings&) const = default;
 };
@@ -46,7 +46,7 @@ class Taste {
   Taste(Taste&&) noexcept;
   Taste& operator=(Taste&&) noexcept;
 
-  std::size_t opinions() const;  // that it knows
+  std::size_t opinions() const;  // and comparisons that it knows
   Forecast forecast(const std::vector<double>& features) const;
   std::vector<Forecast> forecasts(const std::vector<std::vector<double>>& features) const;
   /// How much each feature would raise the forecast, if it alone moved from what is usual (the mean of what was rated) to

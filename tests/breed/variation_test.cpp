@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "base/random.h"
 #include "breed/alignment.h"
 #include "breed/newcomer.h"
 #include "derivation/encode.h"
