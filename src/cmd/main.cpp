@@ -25,6 +25,7 @@ constexpr const char* kExamples = R"(Examples:
   espalier run scenes/spaceship.toml --from out/ship --lock Ship/Body/Body
   espalier compare scenes/spaceship.toml --engines ga,rjmcmc,hybrid --seeds 5 --time 10
   espalier sweep scenes/spaceship.toml --vary search.population=20,100,500 --time 5
+  espalier breed --from out/oak.derivation.json --count 200 --max-triangles 5000
   espalier preview scenes/tree-heart.toml -o preview.png
   espalier score out/ship/run.toml out/ship/best.derivation.json
   espalier inspect out/ship/best.png
@@ -44,6 +45,7 @@ struct CommandLine {
   FormatOptions format;
   ImportOptions import_;
   SampleOptions sample;
+  BreedOptions breed;
   RunVerbOptions run;
   CompareOptions compare;
   SweepOptions sweep;
@@ -241,6 +243,24 @@ void declare_explain(CLI::App& app, CommandLine& line) {
   verb->callback([&line] { line.verb = [&line] { return explain_verb(line.explain); }; });
 }
 
+void declare_breed(CLI::App& app, CommandLine& line) {
+  CLI::App* verb = app.add_subcommand("breed", "Make many distinct siblings of a model, or kinds of a grammar");
+  BreedOptions& o = line.breed;
+  verb->add_option("--from", o.from, "Derivation (or model, picture, run's folder), grammar (.esp) or scene (.toml)")->required();
+  verb->add_option("-n,--count", o.count, "How many, 1 to 1000 (20)")->check(CLI::Range(1, 1000));
+  verb->add_option("--max-triangles", o.most_triangles, "Of each model")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
+  verb->add_option("--strength", o.strength, "How far siblings stray, 0 to 1 (0.3)")->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--least-distance", o.least_distance, "Of the features of any two, 0 to 1 (0.01)")->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--seed", o.seed, "Seed (1)")->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
+  verb->add_option("--format", o.format, "glb, obj, ply or stl (glb)");
+  verb->add_option("--grammar", o.grammar, "Of the derivation (the copy in its run's folder)");
+  declare_attributes(verb, o.attributes);
+  declare_threads(verb, o.threads);
+  verb->add_option("--out", o.out, "Folder to write (out/NAME-species)");
+  verb->callback([&line] { line.verb = [&line] { return breed_verb(line.breed); }; });
+}
+
 void declare_studio(CLI::App& app, CommandLine& line) {
   CLI::App* verb = app.add_subcommand("studio", "Serve the editor: a page where you draw and the model follows");
   StudioOptions& o = line.studio;
@@ -263,6 +283,7 @@ int main_verb(int argc, char** argv) {
   declare_format(app, line);
   declare_import(app, line);
   declare_sample(app, line);
+  declare_breed(app, line);
   declare_run(app, line);
   declare_compare(app, line.compare, line.verb);
   declare_sweep(app, line.sweep, line.verb);

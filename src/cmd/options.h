@@ -40,6 +40,19 @@ struct SampleOptions {
   int threads = 0;
 };
 
+struct BreedOptions {
+  std::string from;     // a derivation, a run's folder, a grammar or a scene
+  std::string grammar;  // of a derivation; empty: the copy in the folder of its run
+  std::uint32_t count = 20;
+  std::optional<std::uint64_t> most_triangles;
+  double strength = 0.3, least_distance = 0.01;
+  std::uint64_t seed = 1;
+  std::string format = "glb";
+  std::vector<std::string> attributes;
+  std::string out;  // empty: out/NAME-species
+  int threads = 0;
+};
+
 struct RunVerbOptions {
   std::string scene;   // or else:
   std::string resume;  // folder to go on from

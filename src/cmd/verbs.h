@@ -14,6 +14,7 @@ int check_verb(const CheckOptions& options);
 int format_verb(const FormatOptions& options);
 int import_verb(const ImportOptions& options);
 int sample_verb(const SampleOptions& options);
+int breed_verb(const BreedOptions& options);
 int run_verb(const RunVerbOptions& options);
 int compare_verb(const CompareOptions& options);
 int sweep_verb(const SweepOptions& options);

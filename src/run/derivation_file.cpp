@@ -13,9 +13,11 @@
 #include "io/file.h"
 #include "run/model_files.h"
 #include "run/sample.h"
+#include "run/toml_section.h"
 #include "run/scene_scorer.h"
 #include "run/scene_toml.h"
 #include "run/setup.h"
+#include "run/toml_section.h"
 #include "run/toml_value.h"
 
 namespace espalier {
@@ -60,9 +62,19 @@ LoadedGrammar grammar_of_settings(const std::string& settings, const std::string
     for (const auto& [attribute, value] : attributes) set[attribute] = value;
     return set;
   };
-  if (parse_toml(settings, name).find("espalier_sample")) {
+  const TomlValue root = parse_toml(settings, name);
+  if (root.find("espalier_sample")) {
     const SampleRequest request = parse_sample_request(settings, name, folder);
     return load_grammar((fs::path(folder) / request.grammar).string(), with(request.attributes));
+  }
+  if (root.find("espalier_breed")) {
+    TomlSection bred(root, name, "");
+    std::map<std::string, std::string> set;
+    if (const TomlValue* table = bred.table("attributes")) {
+      TomlSection values(*table, name, "attributes");
+      for (const auto& [attribute, value] : table->members) set[attribute] = values.text(attribute).value_or("");
+    }
+    return load_grammar((fs::path(folder) / bred.text("grammar").value_or("")).string(), with(set));
   }
   const Scene scene = parse_scene(settings, name, folder);
   return load_grammar((fs::path(folder) / scene.grammar).string(), with(scene.attributes));

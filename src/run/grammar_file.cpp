@@ -26,6 +26,7 @@ LoadedGrammar load_grammar(const std::string& path, const std::map<std::string, 
     while (report.ends_with('\n')) report.pop_back();
     throw Error(report.empty() ? path + ": the grammar does not compile" : report);
   }
+  grammar.attributes = attributes;
   grammar.warnings = report;
   grammar.sources = std::move(result.sources);
   grammar.checked = result.checked;

@@ -19,6 +19,7 @@ struct LoadedGrammar {
   std::vector<SourceText> sources;  // the grammar, then what it imports, named by path
   std::shared_ptr<const CheckedGrammar> checked;
   std::shared_ptr<const GeneratorGraph> graph;
+  std::map<std::string, std::string> attributes;  // that were set, as they were written
   std::string warnings;  // rendered diagnostics; empty if there are none
 };
 

@@ -157,7 +157,12 @@ ReproduceReport reproduce(const std::string& path, const std::string& run_folder
   }
   check_inputs(job, report);
   if (!report.identical()) return report;
-  if (parse_toml(p.settings, path + " (its settings)").find("espalier_sample")) {
+  const TomlValue settings = parse_toml(p.settings, path + " (its settings)");
+  if (settings.find("espalier_breed")) {
+    throw Error(fmt::format("{}: was bred with others; species.json beside it has the command that makes all of them "
+                            "again (make_again)", path));
+  }
+  if (settings.find("espalier_sample")) {
     replay_sample(job, source, executor, report);
   } else {
     replay_run(job, source, executor, report);
