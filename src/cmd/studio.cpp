@@ -17,6 +17,7 @@
 #include "cmd/verbs.h"
 #include "io/file.h"
 #include "studio/project_file.h"
+#include "studio/scene_project.h"
 #include "studio/studio.h"
 #include "studio/web_server.h"
 
@@ -64,10 +65,14 @@ void open_browser(const std::string& link) {
   }
 }
 
-/// A project file is taken in; anything else is the name of a project.
+/// A project file, a scene or a grammar is taken in as a new project; anything else is the name of one.
 std::int64_t project_of(studio::Studio& studio, const std::string& named) {
-  if (!named.ends_with(".espalier")) return studio.find_or_create(named);
-  return studio.import(read_file(named, studio::kMostProjectFileBytes));
+  if (named.ends_with(".espalier")) return studio.import(read_file(named, studio::kMostProjectFileBytes));
+  const auto read = [](const std::string& path) { return read_file(path, studio::Store::kMostFileBytes); };
+  const std::string name = fs::path(named).stem().string();
+  if (named.ends_with(".toml")) return studio.add(name, studio::project_of_scene(named, read));
+  if (named.ends_with(".esp")) return studio.add(name, studio::project_of_grammar(named, read));
+  return studio.find_or_create(named);
 }
 
 }  // namespace

@@ -183,6 +183,7 @@ std::string first_sentence(std::string_view grammar) {
     words += (words.empty() ? "" : " ") + std::string(trimmed(line.substr(1)));
   }
   for (std::size_t at = 0; (at = words.find('.', at)) != std::string::npos; ++at) {
+    if (words.substr(0, at).ends_with(" Fig")) continue;
     if (at + 1 == words.size() || (words[at + 1] == ' ' && at > 0 && !(words[at - 1] >= 'A' && words[at - 1] <= 'Z'))) {
       return words.substr(0, at + 1);
     }

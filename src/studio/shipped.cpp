@@ -12,8 +12,9 @@
 #include "io/image_import.h"
 #include "io/mesh_import.h"
 #include "run/temporary_folder.h"
+#include "studio/file_kind.h"
 #include "studio/grammar_check.h"
-#include "studio/scene_json.h"
+#include "studio/scene_project.h"
 
 namespace espalier::studio {
 namespace {
@@ -21,34 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kGrammars = "grammars/", kScenes = "scenes/";
-constexpr std::string_view kMeshEndings[] = {".obj", ".glb", ".gltf", ".ply", ".stl", ".off", ".dae", ".fbx", ".3ds"};
-constexpr std::string_view kImageEndings[] = {".png", ".jpg", ".jpeg", ".pfm"};
-
-constexpr const char* kEmptyGrammar = R"(grammar sketch 1
-# A stem that bends and forks.
-attr forks in 1..12 by 1 = 6 "Plant/Forks at most"
-material wood = surface("#8a6a4f", roughness: 0.9)
-start Plant
-
-rule Plant { spawn Stem }
-
-rule Stem when depth(Stem) < forks {
-  spin ~ angle()
-  bend ~ uniform(0deg, 40deg)
-  turn y spin  turn x bend  scale 0.85
-  bone (0, 0, 0) -> (0, 1, 0)
-  { move y 0.5  size (0.16, 1, 0.16)  paint wood  emit cylinder(sides: 12) }
-  move y 1
-  spawn Stem
-  maybe 0.5 spawn Stem
-}
-)";
-
-/// Curves are followed by the guided engine; models it grows may be large.
-constexpr const char* kGuidedScene = R"({"seed":1,"search":{"engine":"guided"},"limits":{"genes":{"min":1,"max":2000}}})";
-constexpr const char* kPlainScene =
-    R"({"seed":1,"search":{"engine":"ga"},"engine":{"ga":{"preset":"ga-local"}},"limits":{"genes":{"min":1,"max":400}}})";
-
+const std::string kPictures = "scenes/pictures/";
 std::string stem_of(std::string_view path) { return fs::path(path).stem().string(); }
 
 /// "guided-tree" -> "Guided tree".
@@ -58,13 +32,6 @@ std::string title_of(std::string_view name) {
   if (!title.empty()) title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
   return title;
 }
-
-bool has_ending(std::string path, std::span<const std::string_view> endings) {
-  for (char& c : path) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return path.ends_with(ending); });
-}
-
-bool draws_bones(std::string_view grammar) { return grammar.find("bone ") != std::string_view::npos; }
 
 std::vector<api::Sample> make_samples() {
   std::vector<api::Sample> samples;
@@ -76,6 +43,7 @@ std::vector<api::Sample> make_samples() {
       const auto same = [&](const api::Sample& sample) { return sample.name == name; };
       if (std::any_of(samples.begin(), samples.end(), same)) continue;
       samples.push_back({name, title_of(name), first_sentence(file.bytes), {}});
+      if (const std::string picture = name + ".webp"; find_shipped(kPictures + picture)) samples.back().picture = "samples/" + picture;
     }
   }
   return samples;
@@ -95,42 +63,24 @@ const std::vector<api::Sample>& samples() {
   return all;
 }
 
-NewProject make_sample(const std::string& name) {
-  NewProject project;
-  const auto scene = find_shipped(fmt::format("{}{}.toml", kScenes, name));
-  if (!scene) {
-    const auto grammar = find_shipped(fmt::format("{}{}.esp", kGrammars, name));
-    if (!grammar) throw Error(fmt::format("there is no sample {}", name.substr(0, 80)));
-    project.state.grammar = *grammar;
-    project.state.scene = draws_bones(*grammar) ? kGuidedScene : kPlainScene;
-    return project;
-  }
-  const fs::path folder(kScenes);
-  const auto resolved = [&](const std::string& path) { return (folder / path).lexically_normal().generic_string(); };
-  const auto grammar = find_shipped(resolved(grammar_of(*scene, name)));
-  if (!grammar) throw Error(fmt::format("the sample {} has no grammar", name));
-  project.state.grammar = *grammar;
-  const std::string json = scene_json(*scene, name);
-  std::map<std::string, std::string> names;
-  for (const std::string& file : files_of(json)) {
-    const auto bytes = find_shipped(resolved(file));
-    if (!bytes) throw Error(fmt::format("the sample {} lacks {}", name, file));
-    const std::string path = fs::path(file).filename().string();
-    if (!names.insert({file, path}).second) continue;
-    project.state.files.push_back(describe_file(path, std::string(*bytes)));
-    project.blobs[project.state.files.back().hash] = *bytes;
-  }
-  sort_by_path(project.state.files);
-  project.state.scene = with_files(json, names);
-  return project;
-}
+std::optional<std::string_view> sample_picture(const std::string& name) { return find_shipped(kPictures + name); }
 
-NewProject make_empty_project() { return {{kEmptyGrammar, kGuidedScene, {}}, {}}; }
+NewProject make_sample(const std::string& name) {
+  const ReadPath read = [&](const std::string& path) {
+    const auto bytes = find_shipped(path);
+    if (!bytes) throw Error(fmt::format("the sample {} lacks {}", name, path));
+    return std::string(*bytes);
+  };
+  const std::string scene = fmt::format("{}{}.toml", kScenes, name), grammar = fmt::format("{}{}.esp", kGrammars, name);
+  if (find_shipped(scene)) return project_of_scene(scene, read);
+  if (find_shipped(grammar)) return project_of_grammar(grammar, read);
+  throw Error(fmt::format("there is no sample {}", name.substr(0, 80)));
+}
 
 StoredFile describe_file(const std::string& path, const std::string& bytes) {
   StoredFile file{path, content_hash(bytes), bytes.size()};
-  const bool mesh = has_ending(path, kMeshEndings), image = has_ending(path, kImageEndings);
-  if (!mesh && !image && !path.ends_with(".esp")) {
+  const bool mesh = file_kind(path) == FileKind::mesh, image = file_kind(path) == FileKind::image;
+  if (file_kind(path) == FileKind::other) {
     throw Error(fmt::format("{}: must be a mesh (.obj, .glb, .ply, .stl ..), an image (.png, .jpg, .pfm) or a grammar (.esp)",
                             path));
   }

@@ -27,6 +27,9 @@ std::optional<std::string_view> find_shipped(std::string_view path);
 /// Scenes by their names, then the grammars that no sample of that name shows yet.
 const std::vector<api::Sample>& samples();
 
+/// The picture of a sample by its file name, "city.webp".
+std::optional<std::string_view> sample_picture(const std::string& name);
+
 /// What a new project holds, and its files' bytes by hash.
 struct NewProject {
   StoredState state;

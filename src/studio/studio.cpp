@@ -153,8 +153,7 @@ void Studio::put(const WebSocketPtr& socket, const SessionPtr& session, std::opt
 }
 
 std::int64_t Studio::require_created(const api::CreateProject& create) {
-  const NewProject content = create.sample ? make_sample(*create.sample) : make_empty_project();
-  return store_.create(create.name, content.state, content.blobs);
+  return add(create.name, create.sample ? make_sample(*create.sample) : make_empty_project());
 }
 
 /// Whether the request was one of the list's; then it is done.
@@ -221,7 +220,12 @@ void Studio::received(const WebSocketPtr& socket, std::string text) {
 }
 
 HttpResponse Studio::answer(const HttpRequest& request) {
-  constexpr std::string_view kProjects = "/projects/";
+  constexpr std::string_view kProjects = "/projects/", kSamples = "/samples/";
+  if (request.path.starts_with(kSamples) && request.method == "GET") {
+    const auto picture = sample_picture(request.path.substr(kSamples.size()));
+    if (!picture) return not_found();
+    return {200, std::string(picture_type(*picture)), std::string(*picture)};
+  }
   if (!request.path.starts_with(kProjects)) return not_found();
   std::string rest = request.path.substr(kProjects.size());
   if (rest == "import") {
@@ -236,11 +240,13 @@ HttpResponse Studio::answer(const HttpRequest& request) {
 }
 
 HttpResponse Studio::answer_project(std::int64_t project, const HttpRequest& request, const std::string& rest) {
-  constexpr std::string_view kFiles = "files/", kBreeding = "breeding/", kExport = "export/", kFavourites = "favourites/";
+  constexpr std::string_view kFiles = "files/", kBreeding = "breeding/", kExport = "export/", kFavourites = "favourites/",
+                             kPreviews = "previews/";
   if (rest.starts_with(kExport) && request.method == "GET") {
     const Turn turn(busy_);
     return export_project(project, rest.substr(kExport.size()));
   }
+  if (rest.starts_with(kPreviews) && request.method == "GET") return preview(project, rest.substr(kPreviews.size()));
   if (rest.starts_with(kFavourites) && request.method == "GET") {
     std::string number = rest.substr(kFavourites.size()) + "/";
     std::string picture = store_.favourite_picture(project, take_number(number));
@@ -266,6 +272,15 @@ HttpResponse Studio::answer_project(std::int64_t project, const HttpRequest& req
   }
   for (const StoredFile& file : store_.open(project).state.files) {
     if (file.path == path) return {200, std::string(image_type(path)), store_.blob(project, file.hash)};
+  }
+  return not_found();
+}
+
+HttpResponse Studio::preview(std::int64_t project, const std::string& path) {
+  for (const StoredFile& file : store_.open(project).state.files) {
+    if (file.path != path) continue;
+    std::string png = previews_.png(file, [&](const std::string& hash) { return store_.blob(project, hash); });
+    if (!png.empty()) return {200, "image/png", std::move(png)};
   }
   return not_found();
 }
@@ -297,7 +312,10 @@ std::int64_t Studio::find_or_create(const std::string& name) {
   for (const StoredProject& project : store_.projects()) {
     if (project.name == name) return project.id;
   }
-  const NewProject content = make_empty_project();
+  return add(name, make_empty_project());
+}
+
+std::int64_t Studio::add(const std::string& name, const NewProject& content) {
   return store_.create(name, content.state, content.blobs);
 }
 

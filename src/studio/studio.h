@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "studio/mesh_previews.h"
 #include "studio/project_session.h"
+#include "studio/shipped.h"
 #include "studio/store.h"
 #include "studio/web_server.h"
 
@@ -33,6 +35,8 @@ class Studio final : public WebApp {
   std::string token(bool fresh = false);
   /// The project of that name; a new one where there is none. Throws Error.
   std::int64_t find_or_create(const std::string& name);
+  /// A new project; returns its number. Throws Error.
+  std::int64_t add(const std::string& name, const NewProject& content);
   /// Takes in a project file; returns its number. Throws Error.
   std::int64_t import(std::string_view text);
 
@@ -50,7 +54,10 @@ class Studio final : public WebApp {
   HttpResponse answer_project(std::int64_t project, const HttpRequest& request, const std::string& rest);
   HttpResponse export_project(std::int64_t project, const std::string& format);
 
+  HttpResponse preview(std::int64_t project, const std::string& path);
+
   Store store_;
+  MeshPreviews previews_;
   std::atomic<int> busy_{0};  // exports and imports that run
   std::mutex mutex_;          // guards what follows
   std::map<std::uint64_t, WebSocketPtr> sockets_;

@@ -146,6 +146,8 @@ TEST_F(StudioTest, EverySampleIsReadAndShowsAModel) {
   for (const json& sample : samples) {
     const std::string name = sample["name"];
     EXPECT_FALSE(sample["words"].get<std::string>().empty()) << name;
+    ASSERT_TRUE(sample.contains("picture")) << name << ": script/samples makes one";
+    EXPECT_THAT(http("GET /" + sample["picture"].get<std::string>()).head, HasSubstr("image/webp")) << name;
     EXPECT_EQ(page.ask("create_project", {{"name", name}, {"sample", name}}), "") << name;
     ASSERT_TRUE(page.wait_for("checked", [&](const json& checked) { return checked["revision"] == 1; })) << name;
     EXPECT_FALSE(page.seen["checked"].contains("scene_problem")) << name << page.seen["checked"]["scene_problem"];
@@ -419,6 +421,11 @@ TEST_F(StudioTest, FilesComeInAndAreFilled) {
   EXPECT_EQ(page.seen["document"]["files"][0],
             json::parse(R"({"path": "my box.obj", "bytes": )" + std::to_string(box.size()) + R"(, "triangles": 4, "size": [1,2,3]})"));
   EXPECT_EQ(http("GET " + base + "files/my%20box.obj").body, box);
+  const Answer preview = http("GET " + base + "previews/my%20box.obj");
+  EXPECT_THAT(preview.head, HasSubstr("Content-Type: image/png"));
+  EXPECT_GT(preview.body.size(), 1000u);
+  EXPECT_EQ(http("GET " + base + "previews/my%20box.obj").body, preview.body);
+  EXPECT_EQ(http("GET " + base + "previews/other.obj").status, 404);
   EXPECT_NE(http("POST " + base + "files/..%2f..%2fx.obj", box).status, 200);
   EXPECT_EQ(http("POST " + base + "files/grammar.esp", box).status, 400);
   EXPECT_EQ(http("POST " + base + "files/x.exe", box).status, 400);

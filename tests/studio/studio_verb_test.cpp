@@ -21,14 +21,14 @@ using nlohmann::json;
 /// A server in a process of its own; its link is read from what it prints.
 class Program {
  public:
-  explicit Program(const std::string& data, std::uint16_t at = 0, const char* more = nullptr) {
+  explicit Program(const std::string& data, std::uint16_t at = 0, const char* more = nullptr, const char* project = "p") {
     int ends[2];
     if (pipe(ends) != 0) return;
     child_ = fork();
     if (child_ == 0) {
       dup2(ends[1], STDOUT_FILENO);
       close(ends[0]);
-      execl(ESPALIER_PROGRAM, "espalier", "studio", "p", "--port", std::to_string(at).c_str(), "--no-open", "--data", data.c_str(),
+      execl(ESPALIER_PROGRAM, "espalier", "studio", project, "--port", std::to_string(at).c_str(), "--no-open", "--data", data.c_str(),
             more, nullptr);
       _exit(127);
     }
@@ -190,6 +190,25 @@ TEST(StudioVerb, TheOldLinkWorksAfterItWasKilledAndStartedAgain) {
   EXPECT_EQ(WebSocketClient(other.port, other.token).status(), 101);
   Program elsewhere(folder.file("other.sqlite"));
   EXPECT_NE(elsewhere.token, other.token);
+}
+
+TEST(StudioVerb, ASceneBecomesAProject) {
+  const TemporaryFolder folder;
+  const std::string scene = std::string(ESPALIER_SOURCE_DIR) + "/scenes/spaceship.toml";
+  for (const char* name : {"spaceship", "spaceship 2"}) {
+    Program program(folder.file("studio.sqlite"), 0, nullptr, scene.c_str());
+    ASSERT_NE(program.port, 0);
+    WebSocketClient client(program.port, program.token);
+    const json document = opened(client, program.number);
+    EXPECT_EQ(document["project"]["name"], name);
+    EXPECT_EQ(document["files"].size(), 1u);
+    EXPECT_TRUE(document["scene"].contains("volume"));
+    EXPECT_EQ(program.end(SIGTERM), 0);
+  }
+  Program none(folder.file("studio.sqlite"), 0, nullptr, "no-such.esp");
+  EXPECT_EQ(none.port, 0);
+  const int status = none.end(0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) != 0);
 }
 
 TEST(StudioVerb, EndsInOrderWhenAsked) {

@@ -43,6 +43,16 @@ export class Program {
     await gone;
   }
 
+  /** As by Ctrl-C: milliseconds until it has ended. */
+  async interrupt(): Promise<number> {
+    const child = this.process!;
+    const gone = new Promise((done) => child.once("exit", done));
+    const began = performance.now();
+    child.kill("SIGINT");
+    await gone;
+    return performance.now() - began;
+  }
+
   async end(): Promise<void> {
     await this.kill();
     rmSync(this.folder, { recursive: true, force: true });

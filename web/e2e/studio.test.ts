@@ -96,6 +96,49 @@ test("a silhouette is painted and becomes a target", async () => {
   await page.keyboard.press("Enter");
   await page.locator(".targets li").nth(3).waitFor();
   await expect.poll(() => page.locator(".objective").innerText(), { timeout: 90_000 }).toContain("silhouette");
+  // Seen from elsewhere, it is painted on from where it was painted, and stays one.
+  const pixels = () => page.locator(".silhouette-cards img").evaluate(async (image: HTMLImageElement) => {
+    await image.decode();
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [image.naturalWidth, image.naturalHeight];
+    const paper = canvas.getContext("2d")!;
+    paper.drawImage(image, 0, 0);
+    return paper.getImageData(0, 0, canvas.width, canvas.height).data.filter((a, i) => i % 4 === 3 && a > 128).length;
+  });
+  const before = await pixels();
+  const first = await page.locator(".silhouette-cards img").getAttribute("src");
+  await page.locator(".view-element").focus();
+  await page.keyboard.press("3");
+  await page.keyboard.press("p");
+  await drag([0.5, 0.55], [0.5, 0.8]);
+  await page.locator(".view-element").focus();
+  await page.keyboard.press("Enter");
+  await expect.poll(() => page.locator(".silhouette-cards img").getAttribute("src"), { timeout: 90_000 }).not.toBe(first);
+  expect(await pixels()).toBeGreaterThan(1.2 * before);
+  expect(await page.locator(".targets li").count()).toBe(4);
+  await page.getByRole("button", { name: /Hide painted/ }).click();
+  expect(await page.locator(".silhouette-cards li").count()).toBe(0);
+});
+
+test("a mesh dropped on the grammar tells its size and triangles, and how it looks", async () => {
+  await begin("Guided bonsai");
+  await idle();
+  await page.locator(".grammar").evaluate((grammar) => {
+    const files = new DataTransfer();
+    files.items.add(new File(["v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"], "chip.obj"));
+    grammar.dispatchEvent(new DragEvent("drop", { dataTransfer: files, bubbles: true }));
+  });
+  const notice = page.locator(".notice", { has: page.locator("img") });
+  await notice.waitFor();
+  expect(await notice.innerText()).toContain("4 triangles, 1 × 2 × 3 m");
+  expect(await grammarOf(page)).toContain('mesh chip = "chip.obj"');
+  const width = (picture: string) => page.locator(picture).evaluate(async (image: HTMLImageElement) => (await image.decode(), image.naturalWidth));
+  expect(await width(".notice img")).toBe(128);
+  await page.getByRole("tab", { name: "Log" }).click();
+  expect(await width(".log img")).toBe(128);
+  await page.getByRole("tab", { name: "Files" }).click();
+  expect(await width(".files img")).toBe(128);
+  expect(complaints).toEqual([]);
 });
 
 test("a model is searched, a part locked, and what is exported is a model", async () => {

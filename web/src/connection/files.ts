@@ -13,8 +13,18 @@ export class Files {
     return this.address(`projects/${project}/files/${path.split("/").map(encodeURIComponent).join("/")}`);
   }
 
+  /** A small picture of a mesh of a project. */
+  previewUrl(project: number, path: string): string {
+    return this.address(`projects/${project}/previews/${path.split("/").map(encodeURIComponent).join("/")}`);
+  }
+
   favouriteUrl(project: number, favourite: number): string {
     return this.address(`projects/${project}/favourites/${favourite}`);
+  }
+
+  /** Of a path that the server named. */
+  sampleUrl(path: string): string {
+    return this.address(path);
   }
 
   exportUrl(project: number, format: ExportFormat): string {

@@ -6,6 +6,11 @@ export function showNumber(value: number): string {
   return String(Number(value.toFixed(digits)));
 }
 
+/** 12 345: with thin spaces. */
+export function thousands(value: number): string {
+  return String(value).replace(/\B(?=(\d{3})+(?!\d))/g, "\u2009");
+}
+
 /** What was typed, as a number; a comma is a point. Null where it is none. */
 export function readNumber(text: string): number | null {
   const trimmed = text.trim().replace(",", ".");

@@ -1,11 +1,40 @@
+import { effect } from "@preact/signals";
+import type { FileInfo } from "../api";
+import { showNumber, thousands } from "../controls/number";
 import type { Studio } from "../store/studio";
 import { meshName, placeForMesh } from "./scan";
 
 /** Larger files are refused before they are sent. */
 export const kMeshBytes = 64 * 1024 * 1024;
+const kArrivalMilliseconds = 5000;
 
 export function isMeshFile(name: string): boolean {
   return /\.(obj|glb|ply|stl)$/i.test(name);
+}
+
+/** "12 triangles, 1 × 2 × 1 m" */
+export function meshWords({ triangles, size }: FileInfo): string {
+  const count = triangles === undefined ? "" : `${thousands(triangles)} ${triangles === 1 ? "triangle" : "triangles"}`;
+  const room = size === undefined ? "" : `${size.map(showNumber).join(" × ")} m`;
+  return [count, room].filter((part) => part !== "").join(", ");
+}
+
+/** What the server says of a file that was uploaded: with the next document; null where it does not come. */
+function arrived(studio: Studio, path: string): Promise<FileInfo | null> {
+  const find = () => studio.state.confirmed.value?.files.find((file) => file.path === path);
+  return new Promise((done) => {
+    let stop: (() => void) | null = null;
+    const end = (facts: FileInfo | null) => {
+      cancel();
+      queueMicrotask(() => stop?.());
+      done(facts);
+    };
+    const cancel = studio.later(kArrivalMilliseconds, () => end(null));
+    stop = effect(() => {
+      const facts = find();
+      if (facts !== undefined) end(facts);
+    });
+  });
 }
 
 /** Adds files to the project, and for each a `mesh` line to the grammar. */
@@ -21,6 +50,9 @@ export async function addMeshFiles(
     if (path === null) continue;
     const name = meshName(text(), path);
     insertLine(placeForMesh(text()), `mesh ${name} = "${path}"`);
-    studio.tell(`${path} is in the project; the grammar calls it ${name}.`);
+    const project = studio.document.peek()?.project.id;
+    const facts = await arrived(studio, path);
+    const words = facts === null ? "" : `: ${meshWords(facts)}`;
+    studio.tell(`${path}${words}. The grammar calls it ${name}.`, false, project === undefined ? undefined : studio.files.previewUrl(project, path));
   }
 }

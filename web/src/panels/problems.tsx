@@ -3,11 +3,10 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import type { FileInfo, Problem } from "../api";
 import { IconButton } from "../controls/fields";
 import { Icon } from "../controls/icons";
-import { showNumber } from "../controls/number";
 import { changeBetween, movedPlace } from "../editor/changes";
 import { useStudio } from "../shell/studio_context";
 import { addMesh, meshesOf } from "../store/scene";
-import { isMeshFile } from "../editor/drop_mesh";
+import { isMeshFile, meshWords } from "../editor/drop_mesh";
 import { pickFile } from "./pick_file";
 
 const kTabs = ["Problems", "Log", "Files"] as const;
@@ -95,6 +94,7 @@ function LogLines() {
         <li key={line.number} class={line.level} ref={i === lines.length - 1 ? end : null}>
           <time dateTime={line.at.toISOString()}>{line.at.toTimeString().slice(0, 8)}</time>
           <span>{line.level !== "info" && <b>{line.level === "error" ? "Error: " : "Warning: "}</b>}{line.text}</span>
+          {line.picture !== undefined && <img src={line.picture} alt="" width={64} height={48} />}
         </li>
       ))}
     </ol>
@@ -122,10 +122,10 @@ function FileList({ files }: { files: readonly FileInfo[] }) {
         <tbody>
           {files.map((file) => (
             <tr key={file.path}>
+              <td class="file-picture"><FilePicture file={file} /></td>
               <th scope="row">{file.path}</th>
               <td>{showBytes(file.bytes)}</td>
-              <td>{file.triangles === undefined ? "" : `${file.triangles} triangles`}</td>
-              <td>{file.size === undefined ? "" : `${file.size.map(showNumber).join(" × ")} m`}</td>
+              <td>{meshWords(file)}</td>
               <td class="file-actions">
                 {isMeshFile(file.path) && <IconButton label={`Make ${file.path} a target`} kind="small" onClick={() => asTarget(file.path)}><Icon name="targets" /></IconButton>}
                 <IconButton label={`Remove ${file.path}`} kind="small" onClick={() => void studio.ask({ kind: "remove_file", path: file.path })}><Icon name="trash" /></IconButton>
@@ -138,4 +138,16 @@ function FileList({ files }: { files: readonly FileInfo[] }) {
       <button type="button" class="text-button" onClick={() => void add()}>Add a file</button>
     </>
   );
+}
+
+/** Meshes as they look, images as they are. */
+function FilePicture({ file }: { file: FileInfo }) {
+  const studio = useStudio();
+  const [gone, setGone] = useState(false);
+  const project = studio.document.value?.project.id;
+  if (project === undefined || gone) return null;
+  const mesh = file.triangles !== undefined;
+  if (!mesh && !/\.(png|jpe?g)$/i.test(file.path)) return null;
+  const url = mesh ? studio.files.previewUrl(project, file.path) : studio.files.url(project, file.path);
+  return <img src={url} alt="" width={48} height={36} loading="lazy" onError={() => setGone(true)} />;
 }

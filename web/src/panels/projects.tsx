@@ -38,12 +38,20 @@ export function ProjectsDialog() {
           </div>
           <ul class="samples">
             <li>
-              <button type="button" onClick={() => create()}><b>Empty</b><span>A grammar of one box.</span></button>
+              <button type="button" onClick={() => create()}>
+                <span class="sample-picture"><Icon name="plus" /></span>
+                <b>Empty</b>
+                <span>A grammar of one stem.</span>
+              </button>
             </li>
             {state.samples.value.map((sample) => (
               <li key={sample.name}>
                 <button type="button" onClick={() => create(sample.name, sample.title)}>
-                  {sample.picture !== undefined && <img src={sample.picture} alt="" loading="lazy" />}
+                  <span class="sample-picture">
+                    {sample.picture === undefined
+                      ? <Icon name="parts" />
+                      : <img src={studio.files.sampleUrl(sample.picture)} alt="" width={192} height={144} loading="lazy" />}
+                  </span>
                   <b>{sample.title}</b>
                   <span>{sample.words}</span>
                 </button>

@@ -1,7 +1,7 @@
 import { useState } from "preact/hooks";
 import { CheckField, ChoiceField } from "../controls/fields";
 import { Icon } from "../controls/icons";
-import { readNumber, showNumber } from "../controls/number";
+import { readNumber, showNumber, thousands } from "../controls/number";
 import { NumberField } from "../controls/number_field";
 import { Slider } from "../controls/slider";
 import { useStudio } from "../shell/studio_context";
@@ -68,11 +68,6 @@ function SearchNumbers() {
       </dl>
     </div>
   );
-}
-
-/** 12 345: with thin spaces. */
-export function thousands(value: number): string {
-  return String(value).replace(/\B(?=(\d{3})+(?!\d))/g, "\u2009");
 }
 
 function SettingRow({ setting }: { setting: Setting }) {

@@ -90,8 +90,7 @@ function TargetRow({ row }: { row: Row }) {
   const { kind, index } = row;
   const selection = studio.state.selection.value;
   const selected = selection?.kind === kind && selection.index === index;
-  const hidden = studio.state.hidden.value;
-  const isHidden = kind === "curve" ? hidden.curves.includes(index) : kind === "mesh" && hidden.meshes.includes(index);
+  const isHidden = studio.visibility.isHidden(kind, index);
   return (
     <li class={selected ? "selected" : ""}>
       <button
@@ -105,11 +104,9 @@ function TargetRow({ row }: { row: Row }) {
         <span>{row.name}</span>
       </button>
       <TargetWeight row={row} />
-      {kind !== "silhouette" && (
-        <IconButton label={`${isHidden ? "Show" : "Hide"} ${row.name}`} pressed={isHidden} onClick={() => studio.toggleHidden(kind, index)}>
-          <Icon name={isHidden ? "eyeOff" : "eye"} />
-        </IconButton>
-      )}
+      <IconButton label={`${isHidden ? "Show" : "Hide"} ${row.name}`} pressed={isHidden} onClick={() => studio.visibility.toggle(kind, index)}>
+        <Icon name={isHidden ? "eyeOff" : "eye"} />
+      </IconButton>
       <IconButton label={`Duplicate ${row.name}`} onClick={() => studio.duplicateTarget(kind, index)}><Icon name="copy" /></IconButton>
       <IconButton label={`Delete ${row.name}`} onClick={() => studio.removeTarget(kind, index)}><Icon name="trash" /></IconButton>
     </li>

@@ -4,11 +4,12 @@ import { useEffect, useRef } from "preact/hooks";
 import { IconButton } from "../controls/fields";
 import { Icon, type IconName } from "../controls/icons";
 import { Slider } from "../controls/slider";
-import { thousands } from "../panels/search";
+import { thousands } from "../controls/number";
 import type { Brush, Highlight, Side, StudioView, Tool } from "../view/host";
 import { createView } from "../view/create_view";
 import { useStudio } from "./studio_context";
 import { currentView } from "./view_access";
+import { silhouettesOf } from "../store/scene";
 import { stable } from "../store/stable";
 import type { Studio } from "../store/studio";
 
@@ -30,6 +31,7 @@ export function ViewPane() {
       <div class="view-place"><div class="view-element" ref={place} /></div>
       <Tools />
       <LookBar />
+      <SilhouetteCards />
       <ViewNumbers />
     </div>
   );
@@ -168,6 +170,30 @@ function LookBar() {
         ))}
       </div>
     </div>
+  );
+}
+
+/** Silhouettes are no part of space: they stand beside it as small pictures. */
+function SilhouetteCards() {
+  const studio = useStudio();
+  const project = studio.document.value?.project.id;
+  const selection = studio.state.selection.value;
+  if (project === undefined || !studio.preferences.value.targets) return null;
+  return (
+    <ul class="silhouette-cards" aria-label="Silhouettes">
+      {silhouettesOf(studio.scene.value).map((silhouette, index) => {
+        const image = silhouette.image ?? silhouette.want_image ?? silhouette.avoid_image;
+        if (image === undefined || studio.visibility.isHidden("silhouette", index)) return null;
+        const selected = selection?.kind === "silhouette" && selection.index === index;
+        return (
+          <li key={index}>
+            <button type="button" aria-pressed={selected} title={image} aria-label={`Silhouette ${index + 1}: ${image}`} onClick={() => studio.select(selected ? null : { kind: "silhouette", index })}>
+              <img src={studio.files.url(project, image)} alt="" />
+            </button>
+          </li>
+        );
+      })}
+    </ul>
   );
 }
 

@@ -3,7 +3,7 @@
 import { signal } from "@preact/signals";
 import type { Checked, Document, Gene, Log, Place, ProjectInfo, Sample, SearchState, Shown } from "../api";
 import type { Status } from "../connection/connection";
-import type { Brush, Hidden, Selection, Tool } from "../view/host";
+import { kNoneHidden, type Brush, type Hidden, type Selection, type Tool } from "../view/host";
 
 /** The view knows nothing of selected silhouettes: they are pictures beside the model. */
 export type TargetSelection = Selection | { kind: "silhouette"; index: number };
@@ -11,6 +11,8 @@ export type TargetSelection = Selection | { kind: "silhouette"; index: number };
 export interface LogLine extends Omit<Log, "kind" | "request"> {
   number: number;
   at: Date;
+  /** Address of a picture beside it. */
+  picture?: string;
 }
 
 /** A word to the person that goes by itself. */
@@ -18,6 +20,8 @@ export interface Notice {
   number: number;
   text: string;
   bad: boolean;
+  /** Address of a picture beside it. */
+  picture?: string;
 }
 
 /** Where the editor shall go; a new object each time. */
@@ -55,7 +59,7 @@ export function newState() {
     selection: signal<TargetSelection | null>(null),
     tool: signal<Tool>("select"),
     brush: signal<{ brush: Brush; radius: number }>({ brush: "want", radius: 24 }),
-    hidden: signal<Hidden>({ curves: [], meshes: [] }),
+    hidden: signal<Hidden>(kNoneHidden),
     /** The rule or detail that the cursor stands in, while the editor has the focus. */
     cursorRule: signal<string | null>(null),
     jump: signal<Jump | null>(null),
@@ -66,9 +70,9 @@ export function newState() {
 
 export type State = ReturnType<typeof newState>;
 
-export function addLog(state: State, level: LogLine["level"], text: string, at = new Date()): void {
+export function addLog(state: State, level: LogLine["level"], text: string, at = new Date(), picture?: string): void {
   const number = (state.log.value.at(-1)?.number ?? 0) + 1;
-  state.log.value = [...state.log.value, { number, level, text, at }].slice(-kLogLines);
+  state.log.value = [...state.log.value, { number, level, text, at, ...(picture === undefined ? {} : { picture }) }].slice(-kLogLines);
 }
 
 /** Forgets what belongs to a project, before another is opened. */
@@ -84,5 +88,5 @@ export function forgetProject(state: State): void {
   state.cloud.value = null;
   state.drawn.value = null;
   state.selection.value = null;
-  state.hidden.value = { curves: [], meshes: [] };
+  state.hidden.value = kNoneHidden;
 }

@@ -16,6 +16,7 @@ import {
 import { Searching } from "./searching";
 import { stable } from "./stable";
 import { addLog, newState, type TargetSelection } from "./state";
+import { Visibility } from "./visibility";
 import { watchReach } from "./watch_reach";
 
 export interface StudioOptions {
@@ -59,12 +60,15 @@ export class Studio implements ViewHost {
     return { parts, bones, field, targets, ground, dark: this.dark.value };
   });
 
+  readonly later: StudioOptions["later"];
   readonly projects: Projects;
   readonly searching = new Searching(this);
   readonly genes = new Genes(this);
+  readonly visibility = new Visibility(this);
   private notices = 0;
 
   constructor(private readonly options: StudioOptions) {
+    this.later = options.later;
     this.files = options.files;
     this.preferences = options.preferences;
     this.projects = new Projects(this, options.firstProject, options.onProject);
@@ -113,10 +117,12 @@ export class Studio implements ViewHost {
     return this.ask(ask);
   }
 
-  tell(text: string, bad = false): void {
+  /** What is bad, or has a picture beside it, stands in the log too. */
+  tell(text: string, bad = false, picture?: string): void {
     const number = ++this.notices;
-    this.state.notices.value = [...this.state.notices.value, { number, text, bad }].slice(-3);
-    if (bad) addLog(this.state, "error", text);
+    const notice = { number, text, bad, ...(picture === undefined ? {} : { picture }) };
+    this.state.notices.value = [...this.state.notices.value, notice].slice(-3);
+    if (bad || picture !== undefined) addLog(this.state, bad ? "error" : "info", text, new Date(), picture);
     this.options.later(kNoticeMilliseconds, () => {
       this.state.notices.value = this.state.notices.value.filter((notice) => notice.number !== number);
     });
@@ -154,13 +160,8 @@ export class Studio implements ViewHost {
 
   removeTarget(kind: TargetKind, index: number): void {
     batch(() => {
+      this.visibility.removed(kind, index);
       this.setScene(`Delete ${kind} ${index + 1}`, removeTarget(this.scene.value, kind, index));
-      const { curves, meshes } = this.state.hidden.value;
-      const without = (list: readonly number[]) => list.filter((i) => i !== index).map((i) => (i > index ? i - 1 : i));
-      this.state.hidden.value = {
-        curves: kind === "curve" ? without(curves) : curves,
-        meshes: kind === "mesh" ? without(meshes) : meshes,
-      };
       this.state.selection.value = null;
     });
   }
@@ -170,13 +171,6 @@ export class Studio implements ViewHost {
       this.setScene(`Duplicate ${kind} ${index + 1}`, duplicateTarget(this.scene.value, kind, index));
       this.state.selection.value = { kind, index: countOf(this.scene.value, kind) - 1 };
     });
-  }
-
-  toggleHidden(kind: "curve" | "mesh", index: number): void {
-    const hidden = this.state.hidden.value;
-    const key = kind === "curve" ? "curves" : "meshes";
-    const list = hidden[key].includes(index) ? hidden[key].filter((i) => i !== index) : [...hidden[key], index];
-    this.state.hidden.value = { ...hidden, [key]: list };
   }
 
   /** The name that the file got, or null. */
@@ -227,6 +221,16 @@ export class Studio implements ViewHost {
     return settings;
   }
 
+  paintedBefore(camera: Camera): { camera: Camera; url: string } | null {
+    const project = this.document.value?.project.id;
+    const silhouettes = silhouettesOf(this.scene.value);
+    const selection = this.state.selection.value;
+    const selected = selection?.kind === "silhouette" ? silhouettes[selection.index] : undefined;
+    const found = selected?.camera?.eye !== undefined ? selected : silhouettes.find((one) => sameCamera(one.camera, camera));
+    if (project === undefined || found?.image === undefined) return null;
+    return { camera: found.camera!, url: this.files.url(project, found.image) };
+  }
+
   painted(image: Blob, camera: Camera): void {
     void this.addPainted(image, camera);
   }
@@ -249,7 +253,7 @@ export class Studio implements ViewHost {
 
   /** Keeps what follows from the state itself; call once. */
   watch(): () => void {
-    const stops = [this.genes.watch(), watchReach(this, this.options.later)];
+    const stops = [this.genes.watch(), this.visibility.watch(), watchReach(this, this.options.later)];
     return () => stops.forEach((stop) => stop());
   }
 }

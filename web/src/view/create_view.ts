@@ -10,7 +10,7 @@ import { Input } from "./input";
 import { ModelLayer } from "./model_layer";
 import { Motion } from "./motion";
 import { Notices, NoView } from "./notices";
-import { cameraOf, eyeOf, framed, rayThrough, snapped, type Eye, type Orbit } from "./orbit";
+import { cameraOf, eyeOf, framed, orbitOf, rayThrough, snapped, type Eye, type Orbit } from "./orbit";
 import type { Hover } from "./overlay";
 import { PaintLayer } from "./paint_layer";
 import { kDark, kLight, type Palette } from "./palette";
@@ -159,7 +159,9 @@ export class View implements StudioView, Desk {
     this.tool = tool;
     if (tool === "paint") {
       this.motion.set(this.motion.goal);
-      this.paint.start(this.size.width, this.size.height);
+      const before = this.host.paintedBefore(this.camera()), orbit = before && orbitOf(before.camera);
+      if (orbit) this.orbit = orbit;
+      this.paint.start(this.size.width, this.size.height, orbit && before);
     }
     this.hands.left();
   }
@@ -303,6 +305,9 @@ export class View implements StudioView, Desk {
     this.cost.frame = end - start;
     ++this.cost.frames;
     if (this.arrived) this.host.drawn(this.arrived.model, end - this.arrived.at);
+    // For e2e/measure.ts.
+    const detail = { model: this.arrived?.model ?? null, milliseconds: this.cost.frame, calls: this.cost.calls };
+    this.element.dispatchEvent(new CustomEvent("viewframe", { detail, bubbles: true }));
     this.arrived = null;
     if (this.motion.moving) this.redraw();
   }

@@ -34,6 +34,7 @@ const host: ViewHost = {
   select: (selection) => { events.push({ select: selection }); view.setSelection(selection); },
   setTool: (tool) => { events.push({ tool }); view.setTool(tool); },
   newCurve: () => ({ distance: [0, 0, 100] }),
+  paintedBefore: () => null,
   painted: (image, camera) => { events.push({ painted: image.size, type: image.type, camera }); Object.assign(window,
     { image }); },
   drawn: (model, milliseconds) => { events.push({ drawn: model, milliseconds }); },

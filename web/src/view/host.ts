@@ -19,6 +19,8 @@ export interface ViewHost {
   setTool(tool: Tool): void;
   /** Settings of a curve that is drawn: those of the curve drawn or selected last. */
   newCurve(): Omit<Curve, "points">;
+  /** The silhouette that painting goes on with: the selected one, or else the one of this camera; null: a new one. */
+  paintedBefore(camera: Camera): { camera: Camera; url: string } | null;
   /** A painted silhouette for the camera it was painted with. */
   painted(image: Blob, camera: Camera): void;
   /** The first frame with a new model was submitted: number of the model, milliseconds since it arrived. */
@@ -44,9 +46,10 @@ export interface Highlight {
 export interface Hidden {
   curves: readonly number[];
   meshes: readonly number[];
+  silhouettes: readonly number[];
 }
 
-export const kNoneHidden: Hidden = { curves: [], meshes: [] };
+export const kNoneHidden: Hidden = { curves: [], meshes: [], silhouettes: [] };
 
 /** Whether that target is among them. */
 export function isHidden(hidden: Hidden, target: { kind: string; index?: number }): boolean {

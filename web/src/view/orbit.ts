@@ -48,6 +48,19 @@ export function eyeOf(o: Orbit, width: number, height: number): Eye {
 export const cameraOf = (eye: Eye): Camera =>
   ({ eye: tidy3(eye.position), at: tidy3(eye.target), up: tidy3(eye.up), fov_deg: kFovDeg });
 
+/** The orbit that looks as a camera does which cameraOf made; null where none looks so. */
+export function orbitOf(camera: Camera): Orbit | null {
+  const { eye, at, up, fov_deg: fov } = camera;
+  if (eye === undefined || at === undefined || fov !== kFovDeg) return null;
+  const off = subtract(eye, at), distance = Math.hypot(...off);
+  if (!(distance > 0)) return null;
+  const elevation = Math.asin(clamp(off[1] / distance, -1, 1));
+  // Straight from above or below the azimuth is in what is up.
+  const steep = Math.hypot(off[0], off[2]) < 1e-6 * distance, sign = Math.sign(elevation);
+  const azimuth = steep ? Math.atan2(-sign * (up?.[0] ?? 0), -sign * (up?.[2] ?? -1)) : Math.atan2(off[0], off[2]);
+  return { target: at, distance, azimuth, elevation };
+}
+
 /** Metres per pixel at a depth. */
 export const pixelSize = (eye: Eye, depth: number): number => 2 * kHalfTan * depth / eye.height;
 export const depthOf = (eye: Eye, p: V): number => -dot(subtract(p, eye.position), eye.back);

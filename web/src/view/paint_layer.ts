@@ -2,6 +2,7 @@
 import type { Camera } from "../api";
 import type { Pointer } from "./desk";
 import type { Brush, ViewHost } from "./host";
+import { PaintGround } from "./paint_ground";
 import { drawAll, drawDab, hasPaint, imageSize, kImageInks, type Dab, type Inks } from "./painting";
 import type { Palette, Rgb } from "./palette";
 
@@ -11,6 +12,8 @@ export class PaintLayer {
   private readonly canvas = document.createElement("canvas");
   private readonly cursor = document.createElement("div");
   private readonly paper: CanvasRenderingContext2D;
+  private ground: PaintGround | null = null;
+  private before: { camera: Camera; url: string } | null = null;
   private dabs: Dab[] = [];
   private undone: Dab[] = [];
   private current: Dab | null = null;
@@ -35,7 +38,17 @@ export class PaintLayer {
     return this.canvas.isConnected;
   }
 
-  start(width: number, height: number): void {
+  /** With `before`, painting goes on with that image, as soon as it is there. */
+  start(width: number, height: number, before: { camera: Camera; url: string } | null): void {
+    this.ground = null;
+    this.before = before;
+    if (before) {
+      PaintGround.load(before.url).then((ground) => {
+        if (!this.open || this.before !== before) return;
+        this.ground = ground;
+        this.redraw();
+      }, () => (this.before = null));
+    }
     this.dabs = [];
     this.undone = [];
     this.current = null;
@@ -132,15 +145,17 @@ export class PaintLayer {
     if (!this.open) return;
     this.canvas.remove();
     this.cursor.remove();
-    const { dabs, width, height } = this;
+    const { dabs, width, height, ground, before } = this;
+    this.ground = this.before = null;
     this.dabs = [];
     this.current = null;
-    if (!keep || !hasPaint(dabs)) return;
+    if (!keep || (ground ? dabs.length === 0 : !hasPaint(dabs))) return;
     const size = imageSize(width, height), image = document.createElement("canvas");
     image.width = size.width;
     image.height = size.height;
-    drawAll(image.getContext("2d")!, dabs, kImageInks, width, height, size.scale);
-    image.toBlob((blob) => { if (blob) this.host.painted(blob, camera); }, "image/png");
+    const paper = image.getContext("2d")!;
+    drawAll(paper, dabs, kImageInks, width, height, size.scale, () => ground?.draw(paper, kImageInks, width, height, size.scale));
+    image.toBlob((blob) => { if (blob) this.host.painted(blob, before?.camera ?? camera); }, "image/png");
   }
 
   private rescale(width: number, height: number): void {
@@ -153,7 +168,8 @@ export class PaintLayer {
   }
 
   private redraw(): void {
-    drawAll(this.paper, this.dabs, this.inks, this.width, this.height, this.ratio);
+    const { paper, inks, width, height, ratio } = this;
+    drawAll(paper, this.dabs, inks, width, height, ratio, () => this.ground?.draw(paper, inks, width, height, ratio));
   }
 
   private moveCursor(): void {

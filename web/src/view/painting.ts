@@ -48,13 +48,32 @@ export function drawDab(paper: Paper, dab: Dab, inks: Inks, from = 0): void {
   }
 }
 
+/** `drawGround` draws what was painted before, in pixels of the view. */
 export function drawAll(paper: Paper, dabs: readonly Dab[], inks: Inks, width: number, height: number,
-  scale: number): void {
+  scale: number, drawGround?: () => void): void {
   paper.setTransform(1, 0, 0, 1, 0, 0);
   paper.globalCompositeOperation = "source-over";
   paper.clearRect(0, 0, width * scale, height * scale);
   paper.setTransform(scale, 0, 0, scale, 0, 0);
+  drawGround?.();
   for (const dab of dabs) drawDab(paper, dab, inks);
+}
+
+/** Where an image of so many pixels lies in a view: it fills the height, and the middle stays the middle, because the vertical
+ * angle of view is the same. */
+export function placeOf(image: { width: number; height: number }, width: number, height: number): { x: number; y: number; width: number; height: number } {
+  const wide = (image.width * height) / image.height;
+  return { x: (width - wide) / 2, y: 0, width: wide, height };
+}
+
+/** The part of an image that one brush made, as a mask of its alpha: dark pixels are wanted, light ones are not. */
+export function maskOf(rgba: Uint8ClampedArray, brush: "want" | "avoid"): Uint8ClampedArray<ArrayBuffer> {
+  const mask = new Uint8ClampedArray(rgba.length);
+  for (let i = 0; i < rgba.length; i += 4) {
+    const dark = rgba[i]! + rgba[i + 1]! + rgba[i + 2]! < 3 * 128;
+    if (dark === (brush === "want")) mask[i + 3] = rgba[i + 3]!;
+  }
+  return mask;
 }
 
 /** Whether anything that counts was painted. */

@@ -161,13 +161,35 @@ describe("editing", () => {
 
   test("deleting the last target takes its table out of the scene, and hidden ones move along", async () => {
     const bench = await new Bench().open("g", { curves: { curve: [curve, curve, curve] } });
-    bench.studio.toggleHidden("curve", 2);
+    bench.studio.visibility.toggle("curve", 2);
     bench.studio.removeTarget("curve", 0);
     expect(bench.studio.state.hidden.value.curves).toEqual([1]);
     bench.studio.removeTarget("curve", 0);
     bench.studio.removeTarget("curve", 0);
     expect(bench.studio.scene.value).toEqual({});
     expect(bench.studio.state.hidden.value.curves).toEqual([]);
+  });
+
+  test("what is hidden stays hidden when undo or another tab moves it, and when undo brings it back", async () => {
+    const [a, b, c] = [0.1, 0.2, 0.3].map((offset) => ({ ...curve, offset })) as [Curve, Curve, Curve];
+    const bench = await new Bench().open("g", { curves: { curve: [a, b] } });
+    const stop = bench.studio.watch();
+    const hidden = () => bench.studio.state.hidden.value.curves;
+    bench.studio.visibility.toggle("curve", 1);
+    bench.socket.say(documentOf(2, "g", { curves: { curve: [c, a, b] } }));
+    expect(hidden()).toEqual([2]);
+    bench.socket.say(documentOf(3, "g", { curves: { curve: [c, a, { ...b, offset: 0.9 }] } }));
+    expect(hidden()).toEqual([2]);
+    bench.socket.say(documentOf(4, "g", { curves: { curve: [c, a, b] } }));
+    bench.studio.removeTarget("curve", 2);
+    expect(hidden()).toEqual([]);
+    await bench.answer("edit");
+    bench.socket.say(documentOf(5, "g", { curves: { curve: [c, a] } }));
+    bench.socket.say(documentOf(6, "g", { curves: { curve: [c, a, b] } }));
+    expect(hidden()).toEqual([2]);
+    bench.socket.say(documentOf(1, "g", { curves: { curve: [c, a, b] } }, 2));
+    expect(hidden()).toEqual([]);
+    stop();
   });
 
   test("a selection that undo took away is no selection", async () => {
@@ -308,6 +330,10 @@ describe("painting", () => {
     bench.studio.painted(new Blob(["y"]), { tall: 4, at: [0, 1, 0], eye: [0, 1.000001, 5] });
     await settle();
     expect(uploaded).toEqual(["painted.png", "painted-2.png"]);
+    expect(bench.studio.paintedBefore({ ...camera })?.url).toContain("painted-2.png");
+    bench.studio.select(null);
+    expect(bench.studio.paintedBefore({ ...camera, tall: 9 })).toBeNull();
+    bench.studio.select({ kind: "silhouette", index: 0 });
     expect(bench.studio.scene.value.silhouette).toEqual([{ image: "painted-2.png", view: "parts", camera }]);
     expect(bench.studio.state.selection.value).toEqual({ kind: "silhouette", index: 0 });
   });

@@ -30,6 +30,7 @@ export class FakeDesk implements Desk {
   waiting: (() => void)[] = [];
   readonly draft: Draft;
   readonly host: ViewHost = {
+    paintedBefore: () => null,
     edit: (change) => this.edits.push(change),
     select: (selection) => this.selections.push(selection),
     setTool: (tool) => this.toolsSet.push(tool),

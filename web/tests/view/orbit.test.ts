@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import {
-  atDepth, between, cameraOf, eyeOf, framed, kFovDeg, kHalfTan, kStart, panned, project, rayThrough, snapped, turned,
+  atDepth, between, cameraOf, eyeOf, framed, kFovDeg, kHalfTan, kStart, orbitOf, panned, project, rayThrough, snapped, turned,
   wheelFactor, zoomed,
   type Orbit,
 } from "../../src/view/orbit";
@@ -9,6 +9,25 @@ import { cross, distance, dot, emptyBox, grow, length, subtract, type Box } from
 
 const orbit: Orbit = { target: [1, 2, 3], distance: 5, azimuth: 0.7, elevation: 0.4 };
 const eye = eyeOf(orbit, 800, 600);
+
+describe("a camera", () => {
+  it("is found again from what it looks like, from the poles too", () => {
+    for (const elevation of [0.4, -1.2, 0, Math.PI / 2, -Math.PI / 2]) {
+      for (const azimuth of [0.7, -2, 0]) {
+        const found = orbitOf(cameraOf(eyeOf({ ...orbit, azimuth, elevation }, 800, 600)))!;
+        expect(found.distance).toBeCloseTo(5, 3);
+        expect(found.elevation).toBeCloseTo(elevation, 2);
+        expect(Math.cos(found.azimuth - azimuth)).toBeCloseTo(1, 4);
+      }
+    }
+  });
+
+  it("of another lens, or around the model, is none of the view's", () => {
+    expect(orbitOf({ fit: true, azimuth_deg: 20 })).toBeNull();
+    expect(orbitOf({ ...cameraOf(eye), fov_deg: 20 })).toBeNull();
+    expect(orbitOf({ eye: [0, 1, 5], at: [0, 1, 0], tall: 3 })).toBeNull();
+  });
+});
 
 describe("orbit", () => {
   it("looks at its target from the documented sides", () => {

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { drawAll, drawDab, hasPaint, imageSize, kImageInks, type Dab, type Paper } from "../../src/view/painting";
+import { drawAll, drawDab, hasPaint, imageSize, kImageInks, maskOf, placeOf, type Dab, type Paper } from "../../src/view/painting";
 import { paintKey } from "../../src/view/paint_input";
 
 /** Writes down what is asked of it. */
@@ -19,6 +19,21 @@ function paper(): Paper & { log: string[] } {
 }
 
 const line = (brush: Dab["brush"]): Dab => ({ brush, radius: 5, points: [[0, 0], [10, 0], [20, 0]] });
+
+describe("what was painted before", () => {
+  it("is taken apart by brush", () => {
+    const rgba = new Uint8ClampedArray([0, 0, 0, 255, 255, 255, 255, 200, 0, 0, 0, 0]);
+    const alphas = (brush: "want" | "avoid") => [...maskOf(rgba, brush)].filter((_, i) => i % 4 === 3);
+    expect(alphas("want")).toEqual([255, 0, 0]);
+    expect(alphas("avoid")).toEqual([0, 200, 0]);
+  });
+
+  it("fills the height of a view of any shape, in its middle", () => {
+    expect(placeOf({ width: 400, height: 300 }, 800, 600)).toEqual({ x: 0, y: 0, width: 800, height: 600 });
+    expect(placeOf({ width: 400, height: 300 }, 1000, 600)).toEqual({ x: 100, y: 0, width: 800, height: 600 });
+    expect(placeOf({ width: 400, height: 300 }, 400, 600)).toEqual({ x: -200, y: 0, width: 800, height: 600 });
+  });
+});
 
 describe("painting", () => {
   it("is black where wanted, white where not, transparent where erased", () => {

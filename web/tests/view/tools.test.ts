@@ -64,7 +64,7 @@ describe("select", () => {
     desk.selection = { kind: "mesh", index: 0 };
     const grip = handle.path[handle.path.length - 1]!;
     expect(tools.hoverAt(grip[0], grip[1])).toMatchObject({ kind: "gizmo" });
-    desk.hidden = { curves: [0], meshes: [0] };
+    desk.hidden = { curves: [0], meshes: [0], silhouettes: [] };
     expect(tools.hoverAt(grip[0], grip[1])).toBeNull();
     expect(tools.hoverAt(...at(desk, box))).toBeNull();
     expect(tools.hoverAt(...on)).toBeNull();
