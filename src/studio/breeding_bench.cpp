@@ -6,12 +6,20 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "breed/newcomer.h"
 #include "breed/usual_viability.h"
 #include "derivation/adapt.h"
 #include "derivation/encode.h"
 #include "studio/breeding_settings.h"
 
 namespace espalier::studio {
+
+namespace {
+
+constexpr std::size_t kMostFeatures = 4000;   // kept
+constexpr std::uint32_t kRandomModels = 24;  // that diversity is measured by
+
+}  // namespace
 
 std::unique_ptr<Executor> make_breeding_executor() {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
@@ -26,10 +34,40 @@ void BreedingBench::take(const StoredState& state) {
   bench_.take(state);
   std::shared_ptr<const Setup> setup = bench_.set_up({});
   appraiser_.reset();
+  looker_.reset();
   scorer_.reset();
   setup_ = std::move(setup);
   state_ = state;
   usual_is_exact_ = false;
+  features_.clear();
+  random_.clear();
+}
+
+const std::vector<double>& BreedingBench::features(const std::string& hash,
+                                                   const std::function<std::string(const std::string&)>& read_text) {
+  const auto known = features_.find(hash);
+  if (known != features_.end()) return known->second;
+  const Derivation derivation = read(read_text(hash));
+  const Derivation* const one = &derivation;
+  std::vector<Appraisal> looked = looker().appraise({&one, 1});
+  if (features_.size() >= kMostFeatures) features_.clear();
+  return features_[hash] = std::move(looked[0].features);
+}
+
+bool BreedingBench::draw_random_features() {
+  if (random_.size() >= kRandomModels) return true;
+  RandomStream random({0, Purpose::sample, 0, static_cast<std::uint32_t>(random_.size()), 0});
+  const Derivation drawn = draw_newcomer(graph(), random);
+  const Derivation* const one = &drawn;
+  random_.push_back(std::move(looker().appraise({&one, 1})[0].features));
+  return random_.size() >= kRandomModels;
+}
+
+ModelAppraiser& BreedingBench::looker() {
+  if (!looker_) {
+    looker_ = std::make_unique<ModelAppraiser>(setup_->grammar.graph, setup_->meshes, ModelAppraiser::Settings{}, nullptr, executor_);
+  }
+  return *looker_;
 }
 
 ViabilitySettings BreedingBench::viability(const api::RoomSettings& settings) {

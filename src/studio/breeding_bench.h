@@ -2,6 +2,8 @@
 // BreedingBench: what a project's state is for breeding: its grammar, what judges candidates, and the way from texts of
 // derivations to such as the grammar can show. Of one thread at a time.
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,6 +45,14 @@ class BreedingBench {
   /// What is bred here, judged by these settings. It is good until the next call of this or of take.
   BreedProblem problem(const api::RoomSettings& settings, std::uint64_t seed, const std::vector<api::DrawPlace>& locked);
 
+  /// Of a derivation by the hash of its text. Kept, as long as the state stays.
+  const std::vector<double>& features(const std::string& hash, const std::function<std::string(const std::string&)>& read_text);
+  bool knows_features(const std::string& hash) const { return features_.count(hash) != 0; }
+  const std::vector<std::string>& feature_names() { return looker().feature_names(); }
+  /// Of what the grammar grows at random: one more at each call, until it says that all are there.
+  bool draw_random_features();
+  const std::vector<std::vector<double>>& random_features() const { return random_; }
+
  private:
   Executor& executor_;
   Workbench bench_;
@@ -52,7 +62,12 @@ class BreedingBench {
   std::string usual_of_;                    // this text
   bool usual_is_exact_ = false;             // and of this very state
   std::unique_ptr<SceneScorer> scorer_;
+  ModelAppraiser& looker();
+
   std::unique_ptr<ModelAppraiser> appraiser_;
+  std::unique_ptr<ModelAppraiser> looker_;  // for features, whatever is viable
+  std::map<std::string, std::vector<double>> features_;
+  std::vector<std::vector<double>> random_;
 };
 
 /// All cores but one, which is left to the server; one where there are no more than two.

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "breed/first_generation.h"
 #include "breed/generation.h"
+#include "breed/screen.h"
 #include "studio/breeding_settings.h"
 
 namespace espalier::studio {
@@ -17,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 3> kKinds = {"first", "bred", "like"};
-constexpr std::size_t kMostParents = 1000;
+constexpr std::size_t kMostParents = 1000, kMostOpinions = 2000;
 
 /// The parents as members; `lost`: how many the grammar has no place for, and why the last of them.
 std::vector<Member> members_of(const BreedingBench& bench, const BreedingRecipe& recipe, const ReadText& read_text,
@@ -51,6 +52,8 @@ std::string to_json(const BreedingRecipe& recipe) {
     if (parent.rating) item["rating"] = *parent.rating;
     json["parents"].push_back(std::move(item));
   }
+  for (const RecipeOpinion& one : recipe.opinions) json["opinions"].push_back({one.derivation, one.rating});
+  for (const RecipeComparison& one : recipe.comparisons) json["comparisons"].push_back({one.better, one.worse});
   return json.dump();
 }
 
@@ -72,6 +75,11 @@ BreedingRecipe parse_recipe(std::string_view text) {
       if (item.contains("rating")) parent.rating = item.at("rating").get<double>();
       recipe.parents.push_back(std::move(parent));
     }
+    for (const char* list : {"opinions", "comparisons"}) {
+      if (json.contains(list) && json.at(list).size() > kMostOpinions) throw Error(fmt::format("it has more than {} {}", kMostOpinions, list));
+    }
+    for (const Json& one : json.value("opinions", Json::array())) recipe.opinions.push_back({one.at(0), one.at(1)});
+    for (const Json& one : json.value("comparisons", Json::array())) recipe.comparisons.push_back({one.at(0), one.at(1)});
     return recipe;
   } catch (const Json::exception& error) {
     throw Error(fmt::format("the recipe of a generation is damaged: {}", error.what()));
@@ -83,7 +91,34 @@ BreedingRecipe parse_recipe(std::string_view text) {
 std::vector<std::string> texts_of(const BreedingRecipe& recipe) {
   std::vector<std::string> texts;
   for (const RecipeParent& parent : recipe.parents) texts.push_back(parent.derivation);
+  for (const RecipeOpinion& one : recipe.opinions) texts.push_back(one.derivation);
+  for (const RecipeComparison& one : recipe.comparisons) texts.push_back(one.better), texts.push_back(one.worse);
   return texts;
+}
+
+bool uses_taste(const BreedingRecipe& recipe) {
+  return recipe.settings.taste.value() && may_rate(recipe.settings) && !(recipe.opinions.empty() && recipe.comparisons.empty());
+}
+
+std::optional<Taste> learn_taste(BreedingBench& bench, const BreedingRecipe& recipe, const ReadText& read_text) {
+  const auto features_of = [&](const std::string& hash) -> std::optional<std::vector<double>> {
+    try {
+      return bench.features(hash, read_text);
+    } catch (const Error&) {  // of another text of the grammar
+      return std::nullopt;
+    }
+  };
+  std::vector<Opinion> opinions;
+  for (const RecipeOpinion& one : recipe.opinions) {
+    if (auto features = features_of(one.derivation)) opinions.push_back({std::move(*features), one.rating});
+  }
+  std::vector<Comparison> comparisons;
+  for (const RecipeComparison& one : recipe.comparisons) {
+    auto better = features_of(one.better), worse = features_of(one.worse);
+    if (better && worse) comparisons.push_back({std::move(*better), std::move(*worse)});
+  }
+  if (opinions.empty() && comparisons.empty()) return std::nullopt;
+  return Taste(opinions, comparisons, {});
 }
 
 MadeGeneration make_generation(BreedingBench& bench, const BreedingRecipe& recipe, const ReadText& read_text) {
@@ -102,6 +137,13 @@ MadeGeneration make_generation(BreedingBench& bench, const BreedingRecipe& recip
     FirstGeneration first = first_generation(problem, settings, founders, first_id);
     made.members = std::move(first.members);
     if (!first.note.empty()) made.notes.push_back(std::move(first.note));
+  } else if (std::optional<Taste> taste; uses_taste(recipe) && settings.method == BreedMethod::free && recipe.kind == RecipeKind::bred &&
+                                         (taste = learn_taste(bench, recipe, read_text))) {
+    const Screen screen = next_screen(problem, settings, {}, parents, *taste, recipe.number, first_id);
+    made.members = screen.generation.members;
+    for (const ShownAs shown : screen.shown_as) made.roles.emplace_back(shown == ShownAs::kept ? "" : name_of(shown));
+    made.notes.push_back(fmt::format("chosen from {} candidates, {} of them refused", screen.generation.tried, screen.generation.refused));
+    if (!screen.generation.note.empty()) made.notes.push_back(screen.generation.note);
   } else {
     NextGeneration next = next_generation(problem, settings, parents, recipe.number, first_id);
     made.members = std::move(next.members);

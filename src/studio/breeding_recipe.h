@@ -12,6 +12,7 @@
 #include <studio_types.h>
 
 #include "breed/member.h"
+#include "breed/taste.h"
 #include "studio/breeding_bench.h"
 
 namespace espalier::studio {
@@ -30,6 +31,19 @@ struct RecipeParent {
   bool operator==(const RecipeParent&) const = default;
 };
 
+/// What a taste model learns from: what people said of a derivation, wherever in the session it stood; of two, which is better.
+struct RecipeOpinion {
+  std::string derivation;  // hash of its text
+  double rating = 0;
+
+  bool operator==(const RecipeOpinion&) const = default;
+};
+struct RecipeComparison {
+  std::string better, worse;  // hashes
+
+  bool operator==(const RecipeComparison&) const = default;
+};
+
 struct BreedingRecipe {
   RecipeKind kind = RecipeKind::first;
   api::RoomSettings settings = {};  // complete
@@ -38,6 +52,9 @@ struct BreedingRecipe {
   std::int64_t first_id = 1;        // of its individuals
   std::vector<api::DrawPlace> locked = {};
   std::vector<RecipeParent> parents = {};
+  // With taste alone:
+  std::vector<RecipeOpinion> opinions = {};
+  std::vector<RecipeComparison> comparisons = {};
 
   bool operator==(const BreedingRecipe&) const = default;
 };
@@ -52,8 +69,14 @@ std::vector<std::string> texts_of(const BreedingRecipe& recipe);
 /// The text of a derivation by its hash. Throws Error.
 using ReadText = std::function<std::string(const std::string& hash)>;
 
+/// Whether a taste model chooses: it is wanted, and has something to learn from.
+bool uses_taste(const BreedingRecipe& recipe);
+/// The taste that the recipe's opinions tell of; nothing where the grammar has a place for none of them.
+std::optional<Taste> learn_taste(BreedingBench& bench, const BreedingRecipe& recipe, const ReadText& read_text);
+
 struct MadeGeneration {
   std::vector<Member> members;
+  std::vector<std::string> roles;  // with taste: of each, "best", "different", "uncertain", or "" where it was kept
   std::vector<std::string> notes;  // what was short, in words
 };
 

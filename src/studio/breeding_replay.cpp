@@ -41,11 +41,13 @@ ReplayReport replay(Store& store, std::int64_t project, std::int64_t session) {
     try {
       const StoredGeneration generation = breedings.generation(session, summary.number);
       bench.take(generation.state);
-      const MadeGeneration made = make_generation(bench, parse_recipe(generation.recipe), read_text);
-      // What blends added later is of nobody's breeding.
+      const BreedingRecipe recipe = parse_recipe(generation.recipe);
+      const MadeGeneration made = make_generation(bench, recipe, read_text);
+      // Others came later by hand: kept blends.
+      const std::int64_t end = recipe.first_id + static_cast<std::int64_t>(made.members.size());
       std::vector<BredRow> rows;
       for (const BredRow& row : all) {
-        if (row.generation == summary.number && row.origin != name_of(Origin::blended)) rows.push_back(row);
+        if (row.generation == summary.number && row.id >= recipe.first_id && row.id < end) rows.push_back(row);
       }
       if (!same(bench.graph(), made.members, rows)) report.different.push_back(summary.number);
       report.individuals += static_cast<std::int64_t>(rows.size());

@@ -61,7 +61,7 @@ void BreedingRoom::run() {
     bool empty = false;
     {
       std::unique_lock lock(mutex_);
-      if (!models_missing()) changed_.wait(lock, [&] { return end_ || state_ || !requests_.empty() || left_; });
+      if (!models_missing() && !(session_ && session_->wants_to_reflect())) changed_.wait(lock, [&] { return end_ || state_ || !requests_.empty() || left_; });
       if (end_) return;
       std::swap(state, state_);
       if (!requests_.empty()) {
@@ -76,6 +76,7 @@ void BreedingRoom::run() {
       if (empty) close_session();
       if (request) answer(*request);
       else if (models_missing()) make_models();
+      else if (session_ && session_->reflect()) tell_pages(text());
     } catch (const std::exception& error) {
       tell_pages(to_text(api::Log{{}, api::LogLevel::error, error.what()}));
       // What cannot be made is not tried for ever.

@@ -92,6 +92,7 @@ void BreedingSession::reload() {
   locked_ = read_locked(head_.locked);
   std::vector<RoomIndividual> before;
   before.swap(individuals_);
+  bool other = false;
   for (BredRow& row : store_.individuals(session_, head_.generation)) {
     const auto same = std::find_if(before.begin(), before.end(), [&](const RoomIndividual& one) { return one.row.id == row.id; });
     if (same != before.end() && same->row.derivation == row.derivation) {
@@ -101,7 +102,9 @@ void BreedingSession::reload() {
     }
     individuals_.push_back(find(row.id));
     individuals_.back().version = ++versions_;
+    other = true;
   }
+  if (other || before.size() != individuals_.size()) expect_again();
 }
 
 void BreedingSession::refresh() {
@@ -159,6 +162,7 @@ void BreedingSession::commit(BreedingStep step) {
 void BreedingSession::set(const api::SetBreeding& change) {
   const api::RoomSettings next = changed(settings_, change.settings);
   if (next == settings_) return;
+  if (next.taste != settings_.taste) expect_again();
   commit({.label = "Settings", .gesture = change.gesture.value_or(""),
           .changes = {{BreedingField::settings, 0, head_.settings, settings_text(next)}}});
 }
@@ -231,6 +235,7 @@ void BreedingSession::make(RecipeKind kind, const std::vector<const RoomIndividu
   recipe.number = static_cast<std::uint32_t>(head_.summary.generations + 1);
   recipe.first_id = head_.last_individual + 1;
   recipe.locked = locked_;
+  if (settings_.taste.value()) add_opinions(recipe);
   for (const RoomIndividual* parent : parents) recipe.parents.push_back({parent->row.id, parent->row.derivation, parent->row.rating});
   if (recipe.number > BreedingStore::kMostGenerations) {
     throw Error(fmt::format("a session has at most {} generations: begin another one from your favourites",
@@ -244,6 +249,9 @@ void BreedingSession::make(RecipeKind kind, const std::vector<const RoomIndividu
                     .changes = {{BreedingField::generation, 0, fmt::format("{}", head_.generation), fmt::format("{}", recipe.number)}}};
   step.generation = StoredGeneration{recipe.number, head_.generation, label, bench_.state(), kept};
   add_members(bench_.graph(), made.members, recipe.number, step);
+  for (std::size_t i = 0; i < made.roles.size(); ++i) {
+    if (!made.roles[i].empty()) step.individuals[i].role = made.roles[i];
+  }
   commit(std::move(step));
   notes_ = made.notes;
   notes_of_ = head_.generation;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,7 @@ class BreedingSession {
   const api::RoomSettings& settings() const { return settings_; }
   const std::vector<api::DrawPlace>& locked() const { return locked_; }
   const std::vector<RoomIndividual>& individuals() const { return individuals_; }
-  const std::vector<std::string>& notes() const { return notes_; }
+  std::vector<std::string> notes() const { return notes_of_ == head_.generation ? notes_ : std::vector<std::string>(); }
   std::vector<GenerationSummary> generations() const { return store_.generations(number()); }
   std::vector<BredRow> lineage() const { return store_.individuals(number()); }
 
@@ -54,6 +55,13 @@ class BreedingSession {
   RoomIndividual find(std::int64_t id) const;
   /// The model of an individual that is shown, or of one with the same derivation, has been made.
   void keep_model(const std::string& derivation, const BredModelPtr& model);
+
+  /// What is left to do once all models are there, and nobody asks for anything: how different they are, and what the taste
+  /// model expects of them. A small part of it at each call; whether there is something new to tell.
+  bool reflect();
+  bool wants_to_reflect() const { return !reflected_; }
+  /// What it expects of one that is shown.
+  const std::map<std::int64_t, api::Taste>& forecasts() const { return forecasts_; }
 
   void set(const api::SetBreeding& change);
   void rate(const api::Rate& rate);
@@ -74,6 +82,8 @@ class BreedingSession {
   BreedingChange rating_change(std::int64_t individual, std::optional<double> rating);
   void make(RecipeKind kind, const std::vector<const RoomIndividual*>& parents, const std::string& label);
   void commit(BreedingStep step);
+  void add_opinions(BreedingRecipe& recipe) const;
+  void expect_again();
   double looked_at();
 
   BreedingStore& store_;
@@ -86,6 +96,10 @@ class BreedingSession {
   std::vector<std::string> notes_;  // of the generation made last
   std::int64_t notes_of_ = 0;
   std::uint32_t versions_ = 0;
+  bool reflected_ = false;                         // on what is shown now
+  std::optional<BreedingRecipe> said_;             // what the taste model is to learn from, while that is gathered
+  std::set<std::string> strangers_;                // derivations among that which the grammar has no place for
+  std::map<std::int64_t, api::Taste> forecasts_;   // by individual
   std::map<std::string, BredModelPtr> models_;  // by derivation
   std::chrono::steady_clock::time_point since_ = std::chrono::steady_clock::now();  // what is shown is looked at
 };

@@ -33,7 +33,7 @@ std::optional<api::BredIndividualRole> role_of(const std::optional<std::string>&
   return std::nullopt;
 }
 
-api::BredIndividual individual_text(const RoomIndividual& one) {
+api::BredIndividual individual_text(const RoomIndividual& one, const api::Taste* taste) {
   api::BredIndividual text;
   text.id = one.row.id;
   text.generation = one.row.generation;
@@ -43,6 +43,7 @@ api::BredIndividual individual_text(const RoomIndividual& one) {
   text.edited = one.row.edited;
   text.version = one.version;
   text.role = role_of(one.row.role);
+  if (taste) text.taste = *taste;
   if (!one.derivation) text.missing = one.missing;
   return text;
 }
@@ -85,13 +86,20 @@ api::Breeding breeding_text(const BreedingSession& session, const std::string& p
     if (one.number == head.generation) text.diversity = one.diversity;
     text.generations.push_back(std::move(info));
   }
-  for (const RoomIndividual& one : session.individuals()) text.individuals.push_back(individual_text(one));
+  const api::Taste* best = nullptr;
+  for (const RoomIndividual& one : session.individuals()) {
+    const auto taste = session.forecasts().find(one.row.id);
+    const api::Taste* const found = taste == session.forecasts().end() ? nullptr : &taste->second;
+    text.individuals.push_back(individual_text(one, found));
+    if (found && (!best || found->mean > best->mean)) best = found;
+  }
+  if (best && !best->why.empty()) text.taste_why = best->why;
   text.undo = head.undo;
   text.redo = head.redo;
   if (!busy.empty()) text.busy = busy;
   if (!problem.empty()) text.problem = problem;
   if (const std::string hint = hint_of(depths[head.generation] + 1); !hint.empty()) text.hint = hint;
-  if (!session.notes().empty()) text.notes = session.notes();
+  if (std::vector<std::string> notes = session.notes(); !notes.empty()) text.notes = std::move(notes);
   return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <future>
 #include <utility>
 
 #include <fmt/format.h>
@@ -239,8 +240,8 @@ HttpResponse Studio::answer(const HttpRequest& request) {
 }
 
 HttpResponse Studio::answer_project(std::int64_t project, const HttpRequest& request, const std::string& rest) {
-  constexpr std::string_view kFiles = "files/", kExport = "export/", kFavourites = "favourites/", kPreviews = "previews/",
-                             kBreeding = "breeding/";
+  constexpr std::string_view kFiles = "files/", kBreeding = "breeding/", kExport = "export/", kFavourites = "favourites/",
+                             kPreviews = "previews/";
   if (rest.starts_with(kExport) && request.method == "GET") {
     const Turn turn(busy_);
     return export_project(project, rest.substr(kExport.size()));
@@ -254,7 +255,9 @@ HttpResponse Studio::answer_project(std::int64_t project, const HttpRequest& req
   }
   if (rest.starts_with(kBreeding)) {
     const Turn turn(busy_);
-    const BreedingAnswer answer = answer_breeding(store_, project, request, rest.substr(kBreeding.size()));
+    // The server's own threads have too little stack for grammars and what their meshes are read with.
+    const auto work = [&] { return answer_breeding(store_, project, request, rest.substr(kBreeding.size())); };
+    const BreedingAnswer answer = std::async(std::launch::async, work).get();
     if (answer.changed) session(project)->breedings_changed();
     return answer.response;
   }

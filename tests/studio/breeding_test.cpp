@@ -1,5 +1,4 @@
 // The breeding room over a real socket, as a page sees it.
-#include <chrono>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -46,19 +45,12 @@ class BreedingTest : public testing::Test {
   std::unique_ptr<WebServer> server_;
 };
 
-double seconds_since(std::chrono::steady_clock::time_point then) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
-}
-
 TEST_F(BreedingTest, AFirstScreenIsShownRatedAndBred) {
   const auto page_of = project("gentree-natural");
   BreedingPage& page = *page_of;
   ASSERT_TRUE(page.wait_for("breedings"));
   EXPECT_EQ(page.seen["breedings"]["sessions"].size(), 0u);
-  auto began = std::chrono::steady_clock::now();
   ASSERT_EQ(begin(page), "");
-  RecordProperty("first_screen", std::to_string(seconds_since(began)));
-  printf("first screen %.3f s\n", seconds_since(began));
   ASSERT_EQ(page.breeding()["individuals"].size(), 12u);
   EXPECT_EQ(page.seen["breedings"]["sessions"].size(), 1u);
   EXPECT_EQ(page.seen["breedings"]["open"], page.session()["id"]);
@@ -81,16 +73,11 @@ TEST_F(BreedingTest, AFirstScreenIsShownRatedAndBred) {
   EXPECT_EQ(different.size(), 12u);
 
   const std::vector<std::int64_t> first = page.ids();
-  began = std::chrono::steady_clock::now();
   EXPECT_EQ(page.ask("rate", {{"ratings", {{{"individual", first[2]}, {"rating", 3}}, {{"individual", first[5]}, {"rating", -1}}}}}), "");
-  printf("rating %.3f s\n", seconds_since(began));
   EXPECT_EQ(page.individual(first[2])["rating"], 3);
   EXPECT_EQ(page.breeding()["undo"], "Rate some");
-  began = std::chrono::steady_clock::now();
   EXPECT_EQ(page.ask("breed"), "");
-  printf("bred %.3f s\n", seconds_since(began));
   ASSERT_TRUE(page.wait_for_models());
-  printf("bred and shown %.3f s\n", seconds_since(began));
   EXPECT_EQ(page.breeding()["generation"], 2);
   EXPECT_EQ(page.breeding()["generations"][1]["parent"], 1);
   const json kept = page.breeding()["individuals"][0];
@@ -257,7 +244,7 @@ TEST_F(BreedingTest, HistoryBranchesAndReplaysToTheBit) {
   }
   EXPECT_EQ(known.size(), 46u);
   // An ancestor can be looked at.
-  page.models.clear();
+  page.models.erase(first[3]);
   EXPECT_EQ(page.ask("ask_model", {{"individual", first[3]}}), "");
   EXPECT_EQ(page.models.count(first[3]), 1u);
 
@@ -287,6 +274,38 @@ TEST_F(BreedingTest, HistoryBranchesAndReplaysToTheBit) {
   ASSERT_TRUE(copy->wait_for_models());
   ASSERT_TRUE(page.wait_for_models());
   for (const std::int64_t id : page.ids()) EXPECT_EQ(copy->models[id].substr(56), page.models[id].substr(56));
+}
+
+TEST_F(BreedingTest, ATasteModelChoosesAndSaysWhy) {
+  const auto owned = project("gentree-natural");
+  BreedingPage& page = *owned;
+  ASSERT_EQ(begin(page, {{"taste", true}}), "");
+  ASSERT_TRUE(page.wait_for("breeding", [](const json& now) { return now.contains("diversity"); }));
+  EXPECT_GT(page.breeding()["diversity"], 0.5);
+  EXPECT_FALSE(page.breeding()["individuals"][0].contains("taste")) << "nothing was said yet";
+  for (int round = 0; round < 3; ++round) {
+    json ratings;
+    for (const std::int64_t id : page.ids()) {
+      const double height = page.bred[id]["height"];
+      ratings.push_back({{"individual", id}, {"rating", height}});  // taller is better
+    }
+    EXPECT_EQ(page.ask("rate", {{"ratings", ratings}}), "");
+    EXPECT_EQ(page.ask("compare", {{"better", page.ids()[0]}, {"worse", page.ids()[1]}}), "");
+    EXPECT_EQ(page.ask("breed"), "");
+    ASSERT_TRUE(page.wait_for_models());
+  }
+  ASSERT_TRUE(page.wait_for("breeding", [](const json& now) { return now["individuals"].back().contains("taste"); }));
+  std::set<std::string> roles;
+  for (const json& one : page.breeding()["individuals"]) {
+    EXPECT_GE(one["taste"]["sd"], 0);
+    if (one.contains("role")) roles.insert(one["role"]);
+  }
+  EXPECT_THAT(roles, testing::IsSupersetOf({"best", "different", "uncertain"}));
+  EXPECT_THAT(page.breeding()["notes"][0].get<std::string>(), HasSubstr("chosen from"));
+  ASSERT_TRUE(page.breeding().contains("taste_why"));
+  EXPECT_THAT(page.breeding()["taste_why"][0].get<std::string>(), HasSubstr("like"));
+  const std::string project = std::to_string(page.seen["document"]["project"]["id"].get<int>());
+  EXPECT_EQ(http("GET /projects/" + project + "/breeding/1/replay").body, "4 generations with 48 individuals came out the same\n");
 }
 
 TEST_F(BreedingTest, ADamagedFileIsRefused) {

@@ -115,6 +115,59 @@ TEST(StudioVerb, WhatWasAnsweredSurvivesBeingKilled) {
   }
 }
 
+TEST(StudioVerb, NoRatingThatWasAnsweredIsLostWhereItIsKilledWhileItBreeds) {
+  const TemporaryFolder folder;
+  const std::string data = folder.file("data/studio.sqlite");
+  RandomStream random({3, Purpose::test});
+  const auto done = [](WebSocketClient& client, int request) {
+    json answer;
+    do {
+      answer = read_kind(client, "done");
+      if (answer["kind"] != "done") return false;
+    } while (answer.value("request", 0) != request);
+    return true;
+  };
+  int rating = 0, sent = 0, number = 0;
+  std::int64_t rated = 0;
+  for (int round = 0; round < 4; ++round) {
+    Program program(data);
+    ASSERT_NE(program.port, 0);
+    WebSocketClient client(program.port, program.token);
+    opened(client, program.number);
+    json breeding;
+    if (round == 0) {
+      client.send_frame(json{{"kind", "start_breeding"}, {"settings", {{"population", 9}}}, {"from", "nothing"}}.dump());
+      breeding = read_kind(client, "breeding");
+    } else {
+      client.send_frame(json{{"kind", "open_breeding"}, {"session", 1}}.dump());
+      breeding = read_kind(client, "breeding");
+      // Breeding that was under way is done or not; what was rated before it, in the generation that was rated, stays rated.
+      client.send_frame(json{{"kind", "go_to_generation"}, {"request", ++number}, {"generation", 1}}.dump());
+      while (breeding["generation"] != 1) breeding = read_kind(client, "breeding");
+      double kept = 0;
+      for (const json& one : breeding["individuals"]) {
+        if (one["id"] == rated) kept = one.value("rating", 0.0);
+      }
+      EXPECT_GE(kept, rating);
+      EXPECT_LE(kept, sent);
+    }
+    rated = breeding["individuals"][0]["id"];
+    const int last = sent + 2 + static_cast<int>(random.below(12));
+    while (rating < last) {
+      ++sent;
+      client.send_frame(json{{"kind", "rate"}, {"request", ++number}, {"ratings", {{{"individual", rated}, {"rating", sent}}}}}.dump());
+      ASSERT_TRUE(done(client, number));
+      rating = sent;
+    }
+    // One more is on its way, and a generation, when it dies.
+    ++sent;
+    client.send_frame(json{{"kind", "rate"}, {"ratings", {{{"individual", rated}, {"rating", sent}}}}}.dump());
+    client.send_frame(json{{"kind", "breed"}}.dump());
+    usleep(random.below(40'000));
+    program.end(SIGKILL);
+  }
+}
+
 TEST(StudioVerb, TheOldLinkWorksAfterItWasKilledAndStartedAgain) {
   const TemporaryFolder folder;
   const std::string data = folder.file("studio.sqlite");
