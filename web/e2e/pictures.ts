@@ -1,8 +1,9 @@
-// Takes the pictures of docs/studio.md from the real program: npm run pictures (after script/build and npm run build).
+// Takes the pictures of docs/studio.md and docs/breeding-room.md from the real program: npm run pictures (after script/build and npm run build).
 import { mkdirSync } from "node:fs";
 import { resolve } from "node:path";
 import { launch } from "./browser.ts";
 import { Program } from "./program.ts";
+import { takeRoomPictures } from "./room_pictures.ts";
 
 const folder = resolve(import.meta.dirname, "../../docs/pictures/studio");
 mkdirSync(folder, { recursive: true });
@@ -36,6 +37,9 @@ try {
   const box = (await page.locator(".view-element canvas").first().boundingBox())!;
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   await shot("volume");
+  await page.emulateMedia({ colorScheme: "dark" });
+  await page.keyboard.press("Control+o");
+  await takeRoomPictures(page);
 } finally {
   await browser.close();
   await program.end();

@@ -17,7 +17,7 @@ export function BlendPanel() {
       <ul class="blend-parents">
         {parents.map((id, i) => (
           <li key={id}>
-            <span class="cell-corner">{"ABC"[i]}</span>
+            <span class="cell-corner" data-text={"ABC"[i]} />
             <button type="button" class="text-button" onClick={() => room.lookAtAncestor(id)}>Model {id}</button>
             <span class="cell-space" />
             <span class="dim">{Math.round(100 * weights[i]!)} %</span>

@@ -36,7 +36,7 @@ export function LineagePanel() {
             title={`${originSentence(place.node)}; generation ${place.node.generation}; ${ratingWords(place.node.rating)}`} onClick={() => room.lookAtAncestor(place.node.id)}
           >
             {place.node.id}
-            {place.node.rating !== undefined && place.node.rating !== 0 && <small>{ratingWords(place.node.rating)}</small>}
+            {place.node.rating !== undefined && place.node.rating !== 0 && <small data-text={ratingWords(place.node.rating)} />}
           </button>
         ))}
       </div>

@@ -33,8 +33,8 @@ export function ModelCell({ one, rect, column, by }: { one: BredIndividual; rect
         {one.edited && <span class="cell-mark" title="Edited by hand"><Icon name="pencil" /></span>}
         {bad && <span class="cell-mark bad" title={`Not viable: ${bred.why.join("; ")}`}><Icon name="warning" /></span>}
         <span class="cell-space" />
-        {corner >= 0 && <span class="cell-corner">{"ABC"[corner]}</span>}
-        {role !== null && <span class={`cell-role ${one.role}`} title={role.words}>{role.name}</span>}
+        {corner >= 0 && <span class="cell-corner" data-text={"ABC"[corner]} />}
+        {role !== null && <span class={`cell-role ${one.role}`} title={role.words} data-text={role.name} />}
       </span>
       {one.missing !== undefined && <span class="cell-words">{one.missing}</span>}
       {one.missing === undefined && model === undefined && <span class="cell-words quiet">Growing …</span>}

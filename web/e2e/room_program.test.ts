@@ -1,0 +1,113 @@
+// The breeding room with the real program behind it.
+import { readFileSync } from "node:fs";
+import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from "vitest";
+import type { Browser, Page } from "playwright-core";
+import { launch } from "./browser.ts";
+import { Program } from "./program.ts";
+
+let browser: Browser;
+let program: Program;
+let page: Page;
+let complaints: string[];
+beforeAll(async () => {
+  browser = await launch();
+});
+afterAll(() => browser.close());
+beforeEach(async () => {
+  program = new Program();
+  await program.start();
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: "reduce", acceptDownloads: true });
+  page = await context.newPage();
+  page.setDefaultTimeout(90_000); // machines without a graphics card draw slowly
+  complaints = [];
+  page.on("console", (message) => {
+    if (message.type() === "error" && !message.text().includes("GL Driver Message")) complaints.push(message.text());
+  });
+  page.on("pageerror", (error) => complaints.push(error.message));
+  await page.goto(program.url);
+});
+afterEach(async () => {
+  await page.context().close();
+  await program.end();
+});
+
+const cell = (id: number) => page.locator(`[data-individual="${id}"]`);
+const generation = (number: number) => page.getByRole("heading", { name: `Generation ${number}`, exact: true }).waitFor();
+const grown = () => page.waitForFunction(() => document.querySelector("[data-individual]") !== null && document.querySelector(".cell-words") === null);
+
+async function begin(sample: string, classic = false): Promise<void> {
+  await page.getByRole("dialog", { name: "Projects" }).locator(".samples").getByText(sample, { exact: true }).click();
+  await page.locator(".project-button", { hasText: sample }).waitFor();
+  await page.getByText(/\d+ parts/).waitFor();
+  await page.getByRole("button", { name: "Breed", exact: true }).click();
+  if (classic) await page.getByRole("radio", { name: /GenTree classic/ }).check();
+  await page.getByRole("button", { name: "Start breeding" }).click();
+  await generation(1);
+}
+
+test("a session: rate, breed, edit, lock, blend, branch, undo, export", async () => {
+  await begin("Guided bonsai");
+  await grown();
+  expect(await page.getByRole("gridcell").count()).toBe(12);
+  await cell(2).focus();
+  for (const key of ["+", "ArrowRight", "-"]) await page.keyboard.press(key);
+  await cell(2).and(page.locator("[aria-label*='+1']")).waitFor();
+  await page.keyboard.press("n");
+  await generation(2);
+  await grown();
+  // The liked one is copied, with its rating.
+  const copy = page.getByRole("gridcell", { name: /\+1, copy/ });
+  await copy.waitFor();
+  const slider = page.getByRole("slider", { name: "bend" }).first();
+  const value = await slider.getAttribute("aria-valuetext");
+  await slider.focus();
+  await page.keyboard.press("Home");
+  await page.getByRole("gridcell", { name: /edited by hand/ }).waitFor();
+  await expect.poll(() => slider.getAttribute("aria-valuetext")).not.toBe(value);
+  await page.getByRole("button", { name: "Lock bend" }).first().click();
+  await page.getByRole("button", { name: "Free bend" }).first().waitFor();
+  const shown = page.getByRole("gridcell");
+  for (const at of [1, 2, 3]) {
+    await shown.nth(at).focus();
+    await page.keyboard.press("x");
+  }
+  await page.getByRole("region", { name: "The blend" }).getByRole("button", { name: "Keep the blend" }).click();
+  await page.getByRole("gridcell", { name: /blended/ }).waitFor();
+  await page.getByRole("button", { name: /^Generation 1:/ }).click();
+  await generation(1);
+  await page.getByRole("button", { name: "Next generation", exact: true }).click();
+  await generation(3);
+  await shown.first().focus();
+  await page.keyboard.press("Control+z");
+  await generation(1);
+  await page.getByRole("button", { name: "As a file" }).click();
+  const [file] = await Promise.all([page.waitForEvent("download"), page.getByRole("menuitem", { name: /GLB/ }).click()]);
+  expect(readFileSync((await file.path())!).subarray(0, 4).toString()).toBe("glTF");
+  expect(complaints).toEqual([]);
+});
+
+test("a rating is there again after kill -9, and the page comes back into its session", async () => {
+  await begin("Guided bonsai");
+  await cell(4).getByRole("button", { name: "a point more" }).click();
+  await cell(4).and(page.locator("[aria-label*='+1']")).waitFor();
+  const { port } = program;
+  await program.kill();
+  await page.getByText("Connection lost.", { exact: false }).waitFor();
+  await program.start(port);
+  await page.locator(".connection").waitFor({ state: "detached" });
+  await page.reload();
+  await page.getByRole("button", { name: "Breed", exact: true }).click();
+  await page.locator(".session-name").first().click();
+  await generation(1);
+  await cell(4).and(page.locator("[aria-label*='+1']")).waitFor();
+});
+
+test("GenTree classic breeds twenty", async () => {
+  await begin("Gentree", true);
+  expect(await page.getByRole("gridcell").count()).toBe(20);
+  await page.keyboard.press("+");
+  await page.keyboard.press("n");
+  await generation(2);
+  expect(await page.getByRole("gridcell").count()).toBe(20);
+  expect(complaints).toEqual([]);
+});
