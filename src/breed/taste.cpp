@@ -169,7 +169,9 @@ struct Taste::Model {
 };
 
 void validate(const TasteSettings& s) {
-  if (!(s.noise > 0 && s.noise <= 10)) throw Error(fmt::format("noise must be above 0 and at most 10, got {}", s.noise));
+  if (!(s.noise > 0 && s.noise <= 10)) {
+    throw Error(fmt::format("noise must be above 0 and at most 10, got {}", s.noise));
+  }
   require_range<std::size_t>("most_opinions", s.most_opinions, 1, 2000);
 }
 
@@ -264,7 +266,8 @@ std::string Taste::reasons(const std::vector<double>& features, const std::vecto
     for (const std::size_t f : order) {
       if (said == most || std::abs(gains[f]) < 0.1 * model_->spread) break;
       if ((gains[f] > 0) != liked) continue;
-      text += fmt::format("{}{} {}", said++ ? ", " : "", point[static_cast<Eigen::Index>(f)] > 0 ? "more" : "less", names[f]);
+      const char* const way = point[static_cast<Eigen::Index>(f)] > 0 ? "more" : "less";
+      text += fmt::format("{}{} {}", said++ ? ", " : "", way, names[f]);
     }
     return text;
   };

@@ -15,8 +15,8 @@ struct Opinion {
   double rating = 0;
 };
 
-/// Of two candidates, this one was preferred: their ratings are taken to differ by one spread of the ratings (by 1 where
-/// there are none).
+/// Of two candidates, this one was preferred: their ratings are taken to differ by one spread of the ratings (by 1
+/// where there are none).
 struct Comparison {
   std::vector<double> better, worse;
 };
@@ -38,10 +38,11 @@ struct Forecast {
 
 class Taste {
  public:
-  /// Learns at once. All features lists are equally long and not empty; at least one opinion or comparison. The order of
-  /// opinions does not count (they are sorted), unless there are more than most_opinions. Throws Error for bad settings or
-  /// lists of different lengths, and for numbers that are not finite.
-  Taste(const std::vector<Opinion>& opinions, const std::vector<Comparison>& comparisons, const TasteSettings& settings);
+  /// Learns at once. All features lists are equally long and not empty; at least one opinion or comparison. The order
+  /// of opinions does not count (they are sorted), unless there are more than most_opinions. Throws Error for bad
+  /// settings or lists of different lengths, and for numbers that are not finite.
+  Taste(const std::vector<Opinion>& opinions, const std::vector<Comparison>& comparisons,
+        const TasteSettings& settings);
   ~Taste();
   Taste(Taste&&) noexcept;
   Taste& operator=(Taste&&) noexcept;
@@ -49,8 +50,8 @@ class Taste {
   std::size_t opinions() const;  // and comparisons that it knows
   Forecast forecast(const std::vector<double>& features) const;
   std::vector<Forecast> forecasts(const std::vector<std::vector<double>>& features) const;
-  /// How much each feature would raise the forecast, if it alone moved from what is usual (the mean of what was rated) to
-  /// what the candidate has; in units of rating.
+  /// How much each feature would raise the forecast, if it alone moved from what is usual (the mean of what was
+  /// rated) to what the candidate has; in units of rating.
   std::vector<double> contributions(const std::vector<double>& features) const;
   /// "you like: more height; you dislike: less taper": the strongest contributions with the names of their features, at
   /// most `most` of each; empty where nothing counts for a tenth of the spread of the ratings.
