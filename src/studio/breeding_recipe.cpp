@@ -10,6 +10,7 @@
 #include "breed/first_generation.h"
 #include "breed/generation.h"
 #include "breed/screen.h"
+#include "breed/species.h"
 #include "studio/breeding_settings.h"
 
 namespace espalier::studio {
@@ -39,6 +40,32 @@ std::vector<Member> members_of(const BreedingBench& bench, const BreedingRecipe&
     members.push_back(std::move(member));
   }
   return members;
+}
+
+/// A copy of the individual, and siblings of it.
+MadeGeneration relatives(BreedProblem problem, const BreedingRecipe& recipe, const BreedSettings& settings, const Member& favourite) {
+  // Others each time that it is asked for.
+  problem.draw = recipe.number;
+  SpeciesSettings wanted;
+  wanted.count = settings.population - 1;
+  wanted.strength = settings.strength;
+  Species species = find_species(problem, favourite.derivation, wanted);
+  MadeGeneration made;
+  Member copy = favourite;
+  copy.id = static_cast<MemberId>(recipe.first_id);
+  copy.origin = Origin::kept;
+  copy.parents = {favourite.id};
+  made.members.push_back(std::move(copy));
+  for (Derivation& derivation : species.siblings) {
+    Member sibling;
+    sibling.id = made.members.back().id + 1;
+    sibling.derivation = std::move(derivation);
+    sibling.origin = Origin::sibling;
+    sibling.parents = {favourite.id};
+    made.members.push_back(std::move(sibling));
+  }
+  if (species.siblings.size() < wanted.count) made.notes.push_back(summary(species, wanted));
+  return made;
 }
 
 }  // namespace
@@ -137,6 +164,10 @@ MadeGeneration make_generation(BreedingBench& bench, const BreedingRecipe& recip
     FirstGeneration first = first_generation(problem, settings, founders, first_id);
     made.members = std::move(first.members);
     if (!first.note.empty()) made.notes.push_back(std::move(first.note));
+  } else if (recipe.kind == RecipeKind::like) {
+    MadeGeneration kin = relatives(problem, recipe, settings, parents.at(0));
+    made.members = std::move(kin.members);
+    made.notes.insert(made.notes.end(), kin.notes.begin(), kin.notes.end());
   } else if (std::optional<Taste> taste; uses_taste(recipe) && settings.method == BreedMethod::free && recipe.kind == RecipeKind::bred &&
                                          (taste = learn_taste(bench, recipe, read_text))) {
     const Screen screen = next_screen(problem, settings, {}, parents, *taste, recipe.number, first_id);

@@ -235,7 +235,11 @@ TEST_F(BreedingTest, HistoryBranchesAndReplaysToTheBit) {
   EXPECT_EQ(page.breeding()["generations"][3]["parent"], 1);
   EXPECT_EQ(page.breeding()["generations"][2]["depth"], 2);
   EXPECT_EQ(page.breeding()["generations"][3]["depth"], 1);
-  EXPECT_EQ(page.ask("more_like_this", {{"individual", page.ids()[2]}}), "");
+  const std::int64_t liked = page.ids()[2];
+  EXPECT_EQ(page.ask("more_like_this", {{"individual", liked}}), "");
+  EXPECT_EQ(page.breeding()["individuals"][0]["origin"], "kept");
+  EXPECT_EQ(page.breeding()["individuals"][1]["origin"], "sibling");
+  EXPECT_EQ(page.breeding()["individuals"][1]["parents"], json::array({liked}));
   EXPECT_EQ(page.ask("ask_lineage"), "");
   std::set<std::int64_t> known;
   for (const json& one : page.seen["lineage"]["individuals"]) {
@@ -338,6 +342,26 @@ TEST_F(BreedingTest, ADamagedFileIsRefused) {
   EXPECT_EQ(http("GET " + path + "1/model/3/doc").status, 400);
   EXPECT_EQ(http("GET " + path + "1/nothing").status, 404);
   EXPECT_EQ(http("GET " + path + "1/model/3/glb").body.substr(0, 4), "glTF");
+}
+
+TEST_F(BreedingTest, ASpeciesPackIsManyFilesWithinALimit) {
+  const auto owned = project("gentree-natural");
+  BreedingPage& page = *owned;
+  ASSERT_EQ(begin(page, {{"population", 9}}), "");
+  const std::string path = "/projects/" + std::to_string(page.seen["document"]["project"]["id"].get<int>()) + "/breeding/1/species/";
+  const std::int64_t id = page.ids()[0];
+  const int triangles = page.bred[id]["triangles"].get<int>() * 2;
+  const auto pack = [&](const std::string& rest) { return http("GET " + path + std::to_string(id) + "/" + rest); };
+  const Answer zip = pack("5/" + std::to_string(triangles));
+  ASSERT_EQ(zip.status, 200) << zip.body.substr(0, 200);
+  EXPECT_EQ(zip.body.substr(0, 2), "PK");
+  for (const char* name : {"/001.glb", "/005.glb", "/species.json"}) EXPECT_THAT(zip.body, HasSubstr(name));
+  EXPECT_EQ(zip.body.find("/006.glb"), std::string::npos);
+  EXPECT_EQ(pack("5/" + std::to_string(triangles)).body, zip.body);
+  EXPECT_EQ(pack("5/1").status, 400);
+  EXPECT_EQ(pack("0/1000").status, 400);
+  EXPECT_EQ(pack("100000/1000").status, 400);
+  EXPECT_EQ(pack("5/x").status, 400);
 }
 
 TEST_F(BreedingTest, ManyTabsSeeTheSameSession) {
