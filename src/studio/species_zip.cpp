@@ -28,7 +28,8 @@ std::string species_zip(BreedingBench& bench, Executor& executor, const Derivati
   const std::vector<Mesh> no_ghosts;
   ModelFiles files(setup.graph(), setup.meshes, setup.textures, no_ghosts, {}, executor);
   ZipWriter zip;
-  nlohmann::ordered_json index = {{"espalier_species", 1}, {"words", words}, {"seed", seed}, {"models", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json index = {
+      {"espalier_species", 1}, {"words", words}, {"seed", seed}, {"models", nlohmann::ordered_json::array()}};
   for (std::size_t i = 0; i < species.siblings.size(); ++i) {
     ShownModel shown;
     shown.setup = bench.setup();
@@ -37,7 +38,9 @@ std::string species_zip(BreedingBench& bench, Executor& executor, const Derivati
     files.write(shown.derivation, path, provenance_of(shown));
     zip.add(stem + "/" + name, read_file(path));
     const PerMeasure<double>& measures = species.appraisals[i].measures;
-    index["models"].push_back({{"file", name}, {"triangles", measures[Measure::triangles]}, {"height", measures[Measure::height]},
+    index["models"].push_back({{"file", name},
+                               {"triangles", measures[Measure::triangles]},
+                               {"height", measures[Measure::height]},
                                {"spread", measures[Measure::spread]}});
   }
   zip.add(stem + "/species.json", index.dump(1) + "\n");
