@@ -26,7 +26,8 @@ std::unique_ptr<Executor> make_breeding_executor() {
   return cores > 2 ? make_tbb_executor(cores - 1) : make_serial_executor();
 }
 
-BreedingBench::BreedingBench(ReadBlob read_blob, Executor& executor) : executor_(executor), bench_(std::move(read_blob)) {}
+BreedingBench::BreedingBench(ReadBlob read_blob, Executor& executor)
+    : executor_(executor), bench_(std::move(read_blob)) {}
 BreedingBench::~BreedingBench() = default;
 
 void BreedingBench::take(const StoredState& state) {
@@ -65,7 +66,8 @@ bool BreedingBench::draw_random_features() {
 
 ModelAppraiser& BreedingBench::looker() {
   if (!looker_) {
-    looker_ = std::make_unique<ModelAppraiser>(setup_->grammar.graph, setup_->meshes, ModelAppraiser::Settings{}, nullptr, executor_);
+    looker_ = std::make_unique<ModelAppraiser>(setup_->grammar.graph, setup_->meshes, ModelAppraiser::Settings{},
+                                               nullptr, executor_);
   }
   return *looker_;
 }
@@ -85,7 +87,8 @@ ViabilitySettings BreedingBench::viability(const api::RoomSettings& settings) {
 Derivation BreedingBench::read(const std::string& encoded) const {
   std::string why = "it cannot stand in the grammar as it is now";
   try {
-    if (auto fitting = adapt(graph(), decode(graph(), encoded, kMostGenes, Fit::adaptable))) return std::move(fitting->derivation);
+    if (auto fitting = adapt(graph(), decode(graph(), encoded, kMostGenes, Fit::adaptable)))
+      return std::move(fitting->derivation);
   } catch (const Error& error) {
     why = error.what();
   }
@@ -97,7 +100,8 @@ Held BreedingBench::held(const std::vector<api::DrawPlace>& locked) const {
   for (const api::DrawPlace& place : locked) {
     Held one;
     try {
-      one.draws.push_back({parse_gene_path(graph(), place.path), static_cast<std::uint16_t>(std::clamp<std::int64_t>(place.index, 0, 0xffff))});
+      one.draws.push_back({parse_gene_path(graph(), place.path),
+                           static_cast<std::uint16_t>(std::clamp<std::int64_t>(place.index, 0, 0xffff))});
       validate(graph(), one);
     } catch (const Error&) {  // of another text of the grammar
       continue;
@@ -117,7 +121,8 @@ BreedProblem BreedingBench::problem(const api::RoomSettings& settings, std::uint
   // What is bred depends on nothing but this state, so that it can be bred again.
   if (!usual_is_exact_) usual_.reset();
   judged.viability = viability(settings);
-  appraiser_ = std::make_unique<ModelAppraiser>(setup_->grammar.graph, setup_->meshes, judged, scorer_.get(), executor_);
+  appraiser_ =
+      std::make_unique<ModelAppraiser>(setup_->grammar.graph, setup_->meshes, judged, scorer_.get(), executor_);
   BreedProblem problem;
   problem.graph = setup_->grammar.graph;
   problem.held = held(locked);

@@ -36,17 +36,21 @@ class BreedingBench {
   const StoredState& state() const { return state_; }
   std::string as_named(const std::string& text) const { return bench_.as_named(text); }
 
-  /// The derivation as the grammar can show it, adapted where it is of an older text. Throws Error saying why it cannot.
+  /// The derivation as the grammar can show it, adapted where it is of an older text. Throws Error saying why it
+  /// cannot.
   Derivation read(const std::string& encoded) const;
   /// Locks that lead nowhere in this grammar hold nothing, and are left out.
   Held held(const std::vector<api::DrawPlace>& locked) const;
-  /// What is usual for the grammar, with the limits of these settings. What it costs is paid when the grammar's text is new.
+  /// What is usual for the grammar, with the limits of these settings. What it costs is paid when the grammar's text is
+  /// new.
   ViabilitySettings viability(const api::RoomSettings& settings);
   /// What is bred here, judged by these settings. It is good until the next call of this or of take.
-  BreedProblem problem(const api::RoomSettings& settings, std::uint64_t seed, const std::vector<api::DrawPlace>& locked);
+  BreedProblem problem(const api::RoomSettings& settings, std::uint64_t seed,
+                       const std::vector<api::DrawPlace>& locked);
 
   /// Of a derivation by the hash of its text. Kept, as long as the state stays.
-  const std::vector<double>& features(const std::string& hash, const std::function<std::string(const std::string&)>& read_text);
+  const std::vector<double>& features(const std::string& hash,
+                                      const std::function<std::string(const std::string&)>& read_text);
   bool knows_features(const std::string& hash) const { return features_.count(hash) != 0; }
   const std::vector<std::string>& feature_names() { return looker().feature_names(); }
   /// Of what the grammar grows at random: one more at each call, until it says that all are there.

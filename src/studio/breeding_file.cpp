@@ -91,11 +91,13 @@ BredRow read_individual(const Json& json, const WholeBreeding& whole) {
   row.origin = name_of(origin_named(text_in(json, "origin", 20)));
   for (const Json& parent : list_in(json, "parents", Member::kMostParents)) {
     row.parents.push_back(parent.get<std::int64_t>());
-    require(std::ranges::binary_search(whole.individuals, row.parents.back(), {}, &BredRow::id), name + " has an unknown parent");
+    require(std::ranges::binary_search(whole.individuals, row.parents.back(), {}, &BredRow::id),
+            name + " has an unknown parent");
   }
   row.born = text_in(json, "born", 64);
   row.derivation = text_in(json, "derivation", 64);
-  require(whole.derivations.count(row.born) != 0 && whole.derivations.count(row.derivation) != 0, name + " has no derivation");
+  require(whole.derivations.count(row.born) != 0 && whole.derivations.count(row.derivation) != 0,
+          name + " has no derivation");
   row.edited = json.at("edited").get<bool>();
   row.present = json.at("present").get<bool>();
   if (json.contains("rating")) row.rating = json.at("rating").get<double>();
@@ -106,8 +108,8 @@ BredRow read_individual(const Json& json, const WholeBreeding& whole) {
 void require_parents(const WholeBreeding& whole) {
   for (const StoredGeneration& generation : whole.generations) {
     for (const std::string& named : texts_of(parse_recipe(generation.recipe))) {
-      require(whole.derivations.count(named) != 0, fmt::format("generation {} was made from a derivation that is not there",
-                                                               generation.number));
+      require(whole.derivations.count(named) != 0,
+              fmt::format("generation {} was made from a derivation that is not there", generation.number));
     }
   }
 }
@@ -127,8 +129,12 @@ Json breeding_json(const WholeBreeding& whole) {
       states.push_back(&one.state);
       json["states"].push_back(state_json(one.state, whole.files));
     }
-    json["generations"].push_back({{"number", one.number}, {"parent", one.parent}, {"label", one.label}, {"state", state},
-                                   {"recipe", one.recipe}, {"seconds", one.seconds}});
+    json["generations"].push_back({{"number", one.number},
+                                   {"parent", one.parent},
+                                   {"label", one.label},
+                                   {"state", state},
+                                   {"recipe", one.recipe},
+                                   {"seconds", one.seconds}});
     if (one.diversity) json["generations"].back()["diversity"] = *one.diversity;
   }
   for (const BredRow& row : whole.individuals) {
@@ -162,13 +168,16 @@ WholeBreeding parse_breeding(const Json& json) {
     whole.head.summary.method = name_of(breed_settings(settings).method);
     whole.head.locked = locked_text(read_locked(text_in(json, "locked")));
     std::vector<StoredState> states;
-    for (const Json& item : list_in(json, "states", BreedingStore::kMostGenerations)) states.push_back(read_state(item, whole.files));
+    for (const Json& item : list_in(json, "states", BreedingStore::kMostGenerations))
+      states.push_back(read_state(item, whole.files));
     for (const auto& [hash, text] : json.at("derivations").items()) {
-      require(content_hash(text.get_ref<const std::string&>()) == hash, fmt::format("derivation {}", hash.substr(0, 64)));
+      require(content_hash(text.get_ref<const std::string&>()) == hash,
+              fmt::format("derivation {}", hash.substr(0, 64)));
       whole.derivations.emplace(hash, text.get<std::string>());
     }
     for (const Json& item : list_in(json, "generations", BreedingStore::kMostGenerations)) {
-      whole.generations.push_back(read_generation(item, states, static_cast<std::int64_t>(whole.generations.size() + 1)));
+      whole.generations.push_back(
+          read_generation(item, states, static_cast<std::int64_t>(whole.generations.size() + 1)));
     }
     whole.head.generation = json.at("generation").get<std::int64_t>();
     require(whole.head.generation >= 1 && whole.head.generation <= static_cast<std::int64_t>(whole.generations.size()),
@@ -178,7 +187,8 @@ WholeBreeding parse_breeding(const Json& json) {
     }
     for (const Json& item : list_in(json, "comparisons", BreedingStore::kMostIndividuals)) {
       const auto number = static_cast<std::int64_t>(whole.comparisons.size() + 1);
-      whole.comparisons.push_back({number, item.at("better").get<std::int64_t>(), item.at("worse").get<std::int64_t>()});
+      whole.comparisons.push_back(
+          {number, item.at("better").get<std::int64_t>(), item.at("worse").get<std::int64_t>()});
     }
     require_parents(whole);
     return whole;
@@ -191,12 +201,14 @@ WholeBreeding parse_breeding(const Json& json) {
 
 std::string breeding_file(const WholeBreeding& whole) {
   std::string text = breeding_json(whole).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-  if (text.size() > kMostBreedingFileBytes) throw Error(fmt::format("a breeding file has at most {} bytes", kMostBreedingFileBytes));
+  if (text.size() > kMostBreedingFileBytes)
+    throw Error(fmt::format("a breeding file has at most {} bytes", kMostBreedingFileBytes));
   return text;
 }
 
 WholeBreeding parse_breeding_file(std::string_view text) {
-  if (text.size() > kMostBreedingFileBytes) throw Error(fmt::format("a breeding file has at most {} bytes", kMostBreedingFileBytes));
+  if (text.size() > kMostBreedingFileBytes)
+    throw Error(fmt::format("a breeding file has at most {} bytes", kMostBreedingFileBytes));
   const auto bounded = [](int depth, Json::parse_event_t, Json&) {
     if (depth > kMostDepth) throw Error("the breeding file is nested too deep");
     return true;

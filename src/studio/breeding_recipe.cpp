@@ -10,6 +10,7 @@
 #include "breed/first_generation.h"
 #include "breed/generation.h"
 #include "breed/screen.h"
+#include "breed/species.h"
 #include "studio/breeding_settings.h"
 
 namespace espalier::studio {
@@ -39,6 +40,33 @@ std::vector<Member> members_of(const BreedingBench& bench, const BreedingRecipe&
     members.push_back(std::move(member));
   }
   return members;
+}
+
+/// A copy of the individual, and siblings of it.
+MadeGeneration relatives(BreedProblem problem, const BreedingRecipe& recipe, const BreedSettings& settings,
+                         const Member& favourite) {
+  // Others each time that it is asked for.
+  problem.draw = recipe.number;
+  SpeciesSettings wanted;
+  wanted.count = settings.population - 1;
+  wanted.strength = settings.strength;
+  Species species = find_species(problem, favourite.derivation, wanted);
+  MadeGeneration made;
+  Member copy = favourite;
+  copy.id = static_cast<MemberId>(recipe.first_id);
+  copy.origin = Origin::kept;
+  copy.parents = {favourite.id};
+  made.members.push_back(std::move(copy));
+  for (Derivation& derivation : species.siblings) {
+    Member sibling;
+    sibling.id = made.members.back().id + 1;
+    sibling.derivation = std::move(derivation);
+    sibling.origin = Origin::sibling;
+    sibling.parents = {favourite.id};
+    made.members.push_back(std::move(sibling));
+  }
+  if (species.siblings.size() < wanted.count) made.notes.push_back(summary(species, wanted));
+  return made;
 }
 
 }  // namespace
@@ -76,10 +104,12 @@ BreedingRecipe parse_recipe(std::string_view text) {
       recipe.parents.push_back(std::move(parent));
     }
     for (const char* list : {"opinions", "comparisons"}) {
-      if (json.contains(list) && json.at(list).size() > kMostOpinions) throw Error(fmt::format("it has more than {} {}", kMostOpinions, list));
+      if (json.contains(list) && json.at(list).size() > kMostOpinions)
+        throw Error(fmt::format("it has more than {} {}", kMostOpinions, list));
     }
     for (const Json& one : json.value("opinions", Json::array())) recipe.opinions.push_back({one.at(0), one.at(1)});
-    for (const Json& one : json.value("comparisons", Json::array())) recipe.comparisons.push_back({one.at(0), one.at(1)});
+    for (const Json& one : json.value("comparisons", Json::array()))
+      recipe.comparisons.push_back({one.at(0), one.at(1)});
     return recipe;
   } catch (const Json::exception& error) {
     throw Error(fmt::format("the recipe of a generation is damaged: {}", error.what()));
@@ -97,7 +127,8 @@ std::vector<std::string> texts_of(const BreedingRecipe& recipe) {
 }
 
 bool uses_taste(const BreedingRecipe& recipe) {
-  return recipe.settings.taste.value() && may_rate(recipe.settings) && !(recipe.opinions.empty() && recipe.comparisons.empty());
+  return recipe.settings.taste.value() && may_rate(recipe.settings) &&
+         !(recipe.opinions.empty() && recipe.comparisons.empty());
 }
 
 std::optional<Taste> learn_taste(BreedingBench& bench, const BreedingRecipe& recipe, const ReadText& read_text) {
@@ -137,12 +168,18 @@ MadeGeneration make_generation(BreedingBench& bench, const BreedingRecipe& recip
     FirstGeneration first = first_generation(problem, settings, founders, first_id);
     made.members = std::move(first.members);
     if (!first.note.empty()) made.notes.push_back(std::move(first.note));
-  } else if (std::optional<Taste> taste; uses_taste(recipe) && settings.method == BreedMethod::free && recipe.kind == RecipeKind::bred &&
+  } else if (recipe.kind == RecipeKind::like) {
+    MadeGeneration kin = relatives(problem, recipe, settings, parents.at(0));
+    made.members = std::move(kin.members);
+    made.notes.insert(made.notes.end(), kin.notes.begin(), kin.notes.end());
+  } else if (std::optional<Taste> taste; uses_taste(recipe) && settings.method == BreedMethod::free &&
+                                         recipe.kind == RecipeKind::bred &&
                                          (taste = learn_taste(bench, recipe, read_text))) {
     const Screen screen = next_screen(problem, settings, {}, parents, *taste, recipe.number, first_id);
     made.members = screen.generation.members;
     for (const ShownAs shown : screen.shown_as) made.roles.emplace_back(shown == ShownAs::kept ? "" : name_of(shown));
-    made.notes.push_back(fmt::format("chosen from {} candidates, {} of them refused", screen.generation.tried, screen.generation.refused));
+    made.notes.push_back(fmt::format("chosen from {} candidates, {} of them refused", screen.generation.tried,
+                                     screen.generation.refused));
     if (!screen.generation.note.empty()) made.notes.push_back(screen.generation.note);
   } else {
     NextGeneration next = next_generation(problem, settings, parents, recipe.number, first_id);

@@ -31,7 +31,8 @@ struct RecipeParent {
   bool operator==(const RecipeParent&) const = default;
 };
 
-/// What a taste model learns from: what people said of a derivation, wherever in the session it stood; of two, which is better.
+/// What a taste model learns from: what people said of a derivation, wherever in the session it stood; of two, which is
+/// better.
 struct RecipeOpinion {
   std::string derivation;  // hash of its text
   double rating = 0;

@@ -20,8 +20,9 @@ bool same(const GeneratorGraph& graph, const std::vector<Member>& members, const
     for (const MemberId parent : members[i].parents) {
       if (parent != 0) parents.push_back(static_cast<std::int64_t>(parent));
     }
-    const bool equal = static_cast<std::int64_t>(members[i].id) == rows[i].id && name_of(members[i].origin) == rows[i].origin &&
-                       parents == rows[i].parents && content_hash(encode(graph, members[i].derivation)) == rows[i].born;
+    const bool equal = static_cast<std::int64_t>(members[i].id) == rows[i].id &&
+                       name_of(members[i].origin) == rows[i].origin && parents == rows[i].parents &&
+                       content_hash(encode(graph, members[i].derivation)) == rows[i].born;
     if (!equal) return false;
   }
   return true;
@@ -63,7 +64,8 @@ std::string to_text(const ReplayReport& report) {
   if (!report.different.empty()) {
     return fmt::format("generations that did not come out the same: {}\n", fmt::join(report.different, ", "));
   }
-  return fmt::format("{} with {} came out the same\n", counted(static_cast<std::size_t>(report.generations), "generation"),
+  return fmt::format("{} with {} came out the same\n",
+                     counted(static_cast<std::size_t>(report.generations), "generation"),
                      counted(static_cast<std::size_t>(report.individuals), "individual"));
 }
 

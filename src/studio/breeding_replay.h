@@ -1,6 +1,6 @@
 #pragma once
-// Replay: all generations of a session of the breeding room made again from what was kept with them, and held against what
-// they were.
+// Replay: all generations of a session of the breeding room made again from what was kept with them, and held against
+// what they were.
 
 #include <cstdint>
 #include <string>

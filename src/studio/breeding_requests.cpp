@@ -50,7 +50,8 @@ bool is_breeding(const api::Request& request) {
   return std::visit([](const auto& asked) { return is_of_room<std::decay_t<decltype(asked)>>; }, request);
 }
 
-/// Sliders and blends follow a hand: of requests of one gesture in a row that wait already, one does what all of them ask.
+/// Sliders and blends follow a hand: of requests of one gesture in a row that wait already, one does what all of them
+/// ask.
 bool BreedingRoom::skips_ahead(RoomRequest& request) {
   const std::lock_guard lock(mutex_);
   if (requests_.empty() || requests_.front().socket != request.socket) return false;
@@ -61,14 +62,17 @@ bool BreedingRoom::skips_ahead(RoomRequest& request) {
   }
   const auto* set = std::get_if<api::SetGenes>(&request.request);
   auto* next = std::get_if<api::SetGenes>(&after);
-  if (!set || !next || set->individual != next->individual || set->gesture != next->gesture || !set->gesture) return false;
+  if (!set || !next || set->individual != next->individual || set->gesture != next->gesture || !set->gesture)
+    return false;
   if (set->draws.size() + next->draws.size() > BreedingSession::kMostDraws) return false;
   next->draws.insert(next->draws.begin(), set->draws.begin(), set->draws.end());
   return true;
 }
 
 void BreedingRoom::answer(RoomRequest& request) {
-  const auto done = [&](std::optional<std::int64_t> number) { request.socket->out.push_text(to_text(api::Done{number})); };
+  const auto done = [&](std::optional<std::int64_t> number) {
+    request.socket->out.push_text(to_text(api::Done{number}));
+  };
   std::vector<std::optional<std::int64_t>> numbers = {request.number};
   while (skips_ahead(request)) {
     const std::lock_guard lock(mutex_);

@@ -61,7 +61,8 @@ void BreedingRoom::run() {
     bool empty = false;
     {
       std::unique_lock lock(mutex_);
-      if (!models_missing() && !(session_ && session_->wants_to_reflect())) changed_.wait(lock, [&] { return end_ || state_ || !requests_.empty() || left_; });
+      const bool idle = !models_missing() && !(session_ && session_->wants_to_reflect());
+      if (idle) changed_.wait(lock, [&] { return end_ || state_ || !requests_.empty() || left_; });
       if (end_) return;
       std::swap(state, state_);
       if (!requests_.empty()) {
@@ -165,7 +166,9 @@ void BreedingRoom::enter(const WebSocketPtr& socket) {
 
 void BreedingRoom::update_makers() {
   const bool same_state = makers_setup_ == bench_.setup();
-  const auto limits = [](const api::RoomSettings& s) { return std::tuple(s.max_triangles, s.max_height, s.max_spread); };
+  const auto limits = [](const api::RoomSettings& s) {
+    return std::tuple(s.max_triangles, s.max_height, s.max_spread);
+  };
   const bool same_limits = limits(makers_settings_) == limits(session_->settings());
   if (same_state && same_limits && !makers_.empty()) return;
   makers_.clear();

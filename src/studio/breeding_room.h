@@ -1,6 +1,6 @@
 #pragma once
-// BreedingRoom: a thread of a project's own on which people breed. One session is open in it, for all pages that are in the
-// room; models are made one after the other while nobody asks for anything, and sent as soon as each is ready.
+// BreedingRoom: a thread of a project's own on which people breed. One session is open in it, for all pages that are in
+// the room; models are made one after the other while nobody asks for anything, and sent as soon as each is ready.
 
 #include <atomic>
 #include <condition_variable>
@@ -31,8 +31,10 @@ class RoomListener {
   /// To all pages of the project.
   virtual void tell_project(const std::string& text) = 0;
   /// An individual shall be a favourite, or be shown; the project answers.
-  virtual void keep_bred(const WebSocketPtr& socket, const StoredFavourite& favourite, std::optional<std::int64_t> number) = 0;
-  virtual void show_bred(const WebSocketPtr& socket, const std::string& derivation, std::optional<std::int64_t> number) = 0;
+  virtual void keep_bred(const WebSocketPtr& socket, const StoredFavourite& favourite,
+                         std::optional<std::int64_t> number) = 0;
+  virtual void show_bred(const WebSocketPtr& socket, const std::string& derivation,
+                         std::optional<std::int64_t> number) = 0;
 };
 
 struct RoomRequest {

@@ -22,7 +22,8 @@ constexpr std::size_t kMostModels = 100;  // kept for coming back to
 std::string text_of(double number) { return fmt::format("{}", number); }
 
 /// The members as rows, their derivations among the step's texts.
-void add_members(const GeneratorGraph& graph, const std::vector<Member>& members, std::int64_t generation, BreedingStep& step) {
+void add_members(const GeneratorGraph& graph, const std::vector<Member>& members, std::int64_t generation,
+                 BreedingStep& step) {
   for (const Member& member : members) {
     std::string text = encode(graph, member.derivation);
     BredRow row;
@@ -94,7 +95,8 @@ void BreedingSession::reload() {
   before.swap(individuals_);
   bool other = false;
   for (BredRow& row : store_.individuals(session_, head_.generation)) {
-    const auto same = std::find_if(before.begin(), before.end(), [&](const RoomIndividual& one) { return one.row.id == row.id; });
+    const auto same =
+        std::find_if(before.begin(), before.end(), [&](const RoomIndividual& one) { return one.row.id == row.id; });
     if (same != before.end() && same->row.derivation == row.derivation) {
       individuals_.push_back(std::move(*same));
       individuals_.back().row = std::move(row);
@@ -193,7 +195,8 @@ void BreedingSession::compare(const api::Compare& compare) {
   if (!may_rate(settings_)) throw Error("this session is bred without ratings: its mode is set so");
   if (compare.better == compare.worse) throw Error("an individual cannot be better than itself");
   const std::int64_t number = head_.last_comparison + 1;
-  const double better = shown(compare.better).row.rating.value_or(0), worse = shown(compare.worse).row.rating.value_or(0);
+  const double better = shown(compare.better).row.rating.value_or(0),
+               worse = shown(compare.worse).row.rating.value_or(0);
   commit({.label = "Compare",
           .changes = {{BreedingField::compared, number, "0", "1"}, rating_change(compare.better, better + 1),
                       rating_change(compare.worse, worse - 1)},
@@ -227,16 +230,19 @@ void BreedingSession::lock(const api::LockDraws& lock) {
   }
   if (next.size() > kMostLocked) throw Error(fmt::format("at most {} draws are locked", kMostLocked));
   if (next == locked_) return;
-  commit({.label = lock.locked ? "Lock" : "Unlock", .changes = {{BreedingField::locked, 0, head_.locked, locked_text(next)}}});
+  commit({.label = lock.locked ? "Lock" : "Unlock",
+          .changes = {{BreedingField::locked, 0, head_.locked, locked_text(next)}}});
 }
 
-void BreedingSession::make(RecipeKind kind, const std::vector<const RoomIndividual*>& parents, const std::string& label) {
+void BreedingSession::make(RecipeKind kind, const std::vector<const RoomIndividual*>& parents,
+                           const std::string& label) {
   BreedingRecipe recipe{.kind = kind, .settings = settings_, .seed = static_cast<std::uint64_t>(head_.seed)};
   recipe.number = static_cast<std::uint32_t>(head_.summary.generations + 1);
   recipe.first_id = head_.last_individual + 1;
   recipe.locked = locked_;
   if (settings_.taste.value()) add_opinions(recipe);
-  for (const RoomIndividual* parent : parents) recipe.parents.push_back({parent->row.id, parent->row.derivation, parent->row.rating});
+  for (const RoomIndividual* parent : parents)
+    recipe.parents.push_back({parent->row.id, parent->row.derivation, parent->row.rating});
   if (recipe.number > BreedingStore::kMostGenerations) {
     throw Error(fmt::format("a session has at most {} generations: begin another one from your favourites",
                             BreedingStore::kMostGenerations));
@@ -246,7 +252,8 @@ void BreedingSession::make(RecipeKind kind, const std::vector<const RoomIndividu
   const MadeGeneration made =
       make_generation(bench_, parse_recipe(kept), [&](const std::string& hash) { return store_.text(session_, hash); });
   BreedingStep step{.label = label,
-                    .changes = {{BreedingField::generation, 0, fmt::format("{}", head_.generation), fmt::format("{}", recipe.number)}}};
+                    .changes = {{BreedingField::generation, 0, fmt::format("{}", head_.generation),
+                                 fmt::format("{}", recipe.number)}}};
   step.generation = StoredGeneration{recipe.number, head_.generation, label, bench_.state(), kept};
   add_members(bench_.graph(), made.members, recipe.number, step);
   for (std::size_t i = 0; i < made.roles.size(); ++i) {
@@ -289,7 +296,8 @@ Derivation BreedingSession::blended(const api::Blend& asked) const {
 
 void BreedingSession::keep_blend(const api::Blend& asked) {
   if (!may_edit(settings_)) throw Error("this session is bred without edits: its mode is set so");
-  if (individuals_.size() >= kMostShown) throw Error(fmt::format("a generation has at most {} individuals", kMostShown));
+  if (individuals_.size() >= kMostShown)
+    throw Error(fmt::format("a generation has at most {} individuals", kMostShown));
   Member child;
   child.id = static_cast<MemberId>(head_.last_individual + 1);
   child.derivation = blended(asked);
@@ -305,7 +313,8 @@ void BreedingSession::go_to(std::int64_t generation) {
   if (generation == head_.generation) return;
   store_.generation(session_, generation);
   commit({.label = fmt::format("Go to generation {}", generation),
-          .changes = {{BreedingField::generation, 0, fmt::format("{}", head_.generation), fmt::format("{}", generation)}}});
+          .changes = {
+              {BreedingField::generation, 0, fmt::format("{}", head_.generation), fmt::format("{}", generation)}}});
 }
 
 void BreedingSession::undo() {

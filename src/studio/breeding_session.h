@@ -1,6 +1,6 @@
 #pragma once
-// BreedingSession: an open session of the breeding room: the individuals of the generation that is shown, and what people do
-// to them. What throws Error has changed nothing; what returns is on disk. Of one thread at a time.
+// BreedingSession: an open session of the breeding room: the individuals of the generation that is shown, and what
+// people do to them. What throws Error has changed nothing; what returns is on disk. Of one thread at a time.
 
 #include <chrono>
 #include <cstdint>
@@ -33,8 +33,8 @@ class BreedingSession {
   static constexpr std::size_t kMostRatings = 200, kMostDraws = 2000, kMostLocked = 2000;  // of a request; of a session
 
   /// Makes a session with its first generation; returns its number. `founders`: derivations as JSON.
-  static std::int64_t begin(BreedingStore& store, BreedingBench& bench, std::int64_t project, const api::StartBreeding& start,
-                            const std::vector<std::string>& founders);
+  static std::int64_t begin(BreedingStore& store, BreedingBench& bench, std::int64_t project,
+                            const api::StartBreeding& start, const std::vector<std::string>& founders);
   /// All must outlive it; the bench must be ready. Throws Error where there is no such session.
   BreedingSession(BreedingStore& store, BreedingBench& bench, std::int64_t project, std::int64_t session);
 
@@ -56,8 +56,8 @@ class BreedingSession {
   /// The model of an individual that is shown, or of one with the same derivation, has been made.
   void keep_model(const std::string& derivation, const BredModelPtr& model);
 
-  /// What is left to do once all models are there, and nobody asks for anything: how different they are, and what the taste
-  /// model expects of them. A small part of it at each call; whether there is something new to tell.
+  /// What is left to do once all models are there, and nobody asks for anything: how different they are, and what the
+  /// taste model expects of them. A small part of it at each call; whether there is something new to tell.
   bool reflect();
   bool wants_to_reflect() const { return !reflected_; }
   /// What it expects of one that is shown.

@@ -15,7 +15,9 @@ double now() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-[[noreturn]] void fail_no_session(std::int64_t session) { throw Error(fmt::format("there is no breeding session {}", session)); }
+[[noreturn]] void fail_no_session(std::int64_t session) {
+  throw Error(fmt::format("there is no breeding session {}", session));
+}
 
 BreedingSummary summary_of(const Statement& row) {
   return {row.whole(0), row.text(1), row.text(2), row.whole(3), row.whole(4), row.number(5)};
@@ -48,8 +50,10 @@ BredRow row_of(const Statement& row) {
 
 constexpr const char* kRow =
     "select id, generation, place, origin, born, derivation, edited, present, role, rating, "
-    "(select group_concat(parent, ' ') from (select parent from breeding_lineage l where l.session = i.session and child = id "
-    "order by l.place)) from breeding_individual i left join breeding_rating r on r.session = i.session and individual = id "
+    "(select group_concat(parent, ' ') from (select parent from breeding_lineage l where l.session = i.session and "
+    "child = id "
+    "order by l.place)) from breeding_individual i left join breeding_rating r on r.session = i.session and individual "
+    "= id "
     "where i.session = ?";
 
 }  // namespace
@@ -57,8 +61,8 @@ constexpr const char* kRow =
 std::vector<BreedingSummary> BreedingStore::list(std::int64_t project) {
   std::vector<BreedingSummary> all;
   store_.alone([&](Database& database) {
-    Statement ask = database.prepare(fmt::format("select {} from breeding_session where project = ? order by changed desc, id desc",
-                                                 kSummary));
+    Statement ask = database.prepare(
+        fmt::format("select {} from breeding_session where project = ? order by changed desc, id desc", kSummary));
     ask.bind(project);
     while (ask.step()) all.push_back(summary_of(ask));
   });
@@ -96,11 +100,13 @@ void BreedingStore::remove(std::int64_t project, std::int64_t session) {
 BreedingHead BreedingStore::open(std::int64_t project, std::int64_t session) {
   BreedingHead head;
   store_.alone([&](Database& database) {
-    Statement ask = database.prepare(fmt::format("select {}, project, revision, seed, settings, locked, generation, step, "
-                                                 "(select coalesce(max(i.id), 0) from breeding_individual i where "
-                                                 "i.session = breeding_session.id), (select coalesce(max(number), 0) "
-                                                 "from breeding_comparison where session = breeding_session.id) "
-                                                 "from breeding_session where id = ? and project = ?", kSummary));
+    Statement ask =
+        database.prepare(fmt::format("select {}, project, revision, seed, settings, locked, generation, step, "
+                                     "(select coalesce(max(i.id), 0) from breeding_individual i where "
+                                     "i.session = breeding_session.id), (select coalesce(max(number), 0) "
+                                     "from breeding_comparison where session = breeding_session.id) "
+                                     "from breeding_session where id = ? and project = ?",
+                                     kSummary));
     if (!ask.bind(session).bind(project).step()) fail_no_session(session);
     head.summary = summary_of(ask);
     head.project = ask.whole(6);
@@ -112,7 +118,8 @@ BreedingHead BreedingStore::open(std::int64_t project, std::int64_t session) {
     const std::int64_t step = ask.whole(12);
     head.last_individual = ask.whole(13);
     head.last_comparison = ask.whole(14);
-    Statement steps = database.prepare("select number, label from breeding_step where session = ? and number between ? and ?");
+    Statement steps =
+        database.prepare("select number, label from breeding_step where session = ? and number between ? and ?");
     steps.bind(session).bind(step).bind(step + 1);
     while (steps.step()) (steps.whole(0) == step ? head.undo : head.redo) = steps.text(1);
   });
@@ -123,13 +130,16 @@ std::vector<GenerationSummary> BreedingStore::generations(std::int64_t session) 
   std::vector<GenerationSummary> all;
   store_.alone([&](Database& database) {
     Statement ask = database.prepare(
-        "select g.number, g.parent, g.label, g.seconds, g.diversity, count(i.id), count(r.rating), coalesce(sum(i.edited), 0) "
-        "from breeding_generation g left join breeding_individual i on i.session = g.session and i.generation = g.number and "
+        "select g.number, g.parent, g.label, g.seconds, g.diversity, count(i.id), count(r.rating), "
+        "coalesce(sum(i.edited), 0) "
+        "from breeding_generation g left join breeding_individual i on i.session = g.session and i.generation = "
+        "g.number and "
         "i.present left join breeding_rating r on r.session = i.session and r.individual = i.id where g.session = ? "
         "group by g.number order by g.number");
     ask.bind(session);
     while (ask.step()) {
-      GenerationSummary one{ask.whole(0), ask.whole(1), ask.whole(5), ask.whole(6), ask.whole(7), ask.text(2), ask.number(3), {}};
+      GenerationSummary one{ask.whole(0), ask.whole(1), ask.whole(5),  ask.whole(6),
+                            ask.whole(7), ask.text(2),  ask.number(3), {}};
       if (!ask.null(4)) one.diversity = ask.number(4);
       all.push_back(std::move(one));
     }
@@ -181,8 +191,9 @@ BredRow BreedingStore::individual(std::int64_t session, std::int64_t id) {
 std::vector<BreedingComparison> BreedingStore::comparisons(std::int64_t session) {
   std::vector<BreedingComparison> all;
   store_.alone([&](Database& database) {
-    Statement ask = database.prepare("select number, better, worse from breeding_comparison where session = ? and present "
-                                     "order by number");
+    Statement ask = database.prepare(
+        "select number, better, worse from breeding_comparison where session = ? and present "
+        "order by number");
     ask.bind(session);
     while (ask.step()) all.push_back({ask.whole(0), ask.whole(1), ask.whole(2)});
   });
@@ -226,8 +237,10 @@ bool BreedingStore::move(std::int64_t session, bool back) {
     }
     std::vector<std::pair<BreedingField, std::pair<std::int64_t, std::optional<std::string>>>> changes;
     {
-      Statement ask = database.prepare(fmt::format("select field, subject, {} from breeding_change where session = ? and step = ? "
-                                                   "order by number {}", back ? "before" : "after", back ? "desc" : "asc"));
+      Statement ask =
+          database.prepare(fmt::format("select field, subject, {} from breeding_change where session = ? and step = ? "
+                                       "order by number {}",
+                                       back ? "before" : "after", back ? "desc" : "asc"));
       ask.bind(session).bind(number);
       while (ask.step()) {
         changes.push_back({breeding_field(ask.text(0)), {ask.whole(1), ask.maybe_text(2)}});

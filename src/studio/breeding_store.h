@@ -1,9 +1,9 @@
 #pragma once
-// BreedingStore: sessions of the breeding room in the file of projects. As with the store's own calls, what one has changed is
-// on disk when it returns. Safe to use from any thread.
+// BreedingStore: sessions of the breeding room in the file of projects. As with the store's own calls, what one has
+// changed is on disk when it returns. Safe to use from any thread.
 //
-// Generations and individuals only ever come; what may change of them, and of the session, is a field that a step of undo
-// knows before and after.
+// Generations and individuals only ever come; what may change of them, and of the session, is a field that a step of
+// undo knows before and after.
 
 #include <cstdint>
 #include <map>
@@ -102,8 +102,8 @@ class BreedingStore {
   explicit BreedingStore(Store& store) : store_(store) {}
 
   std::vector<BreedingSummary> list(std::int64_t project);
-  /// A session with its first generation. Throws Error, here and below, for what is not there, or beyond a budget; then nothing
-  /// has changed.
+  /// A session with its first generation. Throws Error, here and below, for what is not there, or beyond a budget; then
+  /// nothing has changed.
   std::int64_t create(std::int64_t project, const BreedingHead& head, const BreedingStep& first);
   /// For export, and what came back from there; returns its number.
   WholeBreeding whole(std::int64_t project, std::int64_t session);

@@ -14,7 +14,8 @@ extern const char* const kBreedingTables;
 
 /// All sessions of a project once more, for its copy. Within a transaction.
 void copy_breedings(Database& database, std::int64_t project, std::int64_t copy);
-/// Lists of files, as JSON, of the states that generations of the project were bred in: their bytes are not to be forgotten.
+/// Lists of files, as JSON, of the states that generations of the project were bred in: their bytes are not to be
+/// forgotten.
 std::vector<std::string> breeding_file_lists(Database& database, std::int64_t project);
 
 }  // namespace espalier::studio

@@ -35,7 +35,8 @@ void BreedingSession::add_opinions(BreedingRecipe& recipe) const {
     if (!better.empty() && !worse.empty()) recipe.comparisons.push_back({std::move(better), std::move(worse)});
   }
   if (recipe.comparisons.size() > kMostOpinions) {
-    recipe.comparisons.erase(recipe.comparisons.begin(), recipe.comparisons.end() - static_cast<std::ptrdiff_t>(kMostOpinions));
+    recipe.comparisons.erase(recipe.comparisons.begin(),
+                             recipe.comparisons.end() - static_cast<std::ptrdiff_t>(kMostOpinions));
   }
 }
 

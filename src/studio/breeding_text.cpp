@@ -23,7 +23,8 @@ template <class Enum>
 Enum origin_of(const BredRow& row) {
   return static_cast<Enum>(origin_named(row.origin));
 }
-static_assert(static_cast<std::size_t>(api::BredIndividualOrigin::sibling) == static_cast<std::size_t>(Origin::sibling));
+static_assert(static_cast<std::size_t>(api::BredIndividualOrigin::sibling) ==
+              static_cast<std::size_t>(Origin::sibling));
 static_assert(static_cast<std::size_t>(api::LineageNodeOrigin::sibling) == static_cast<std::size_t>(Origin::sibling));
 
 std::optional<api::BredIndividualRole> role_of(const std::optional<std::string>& role) {
@@ -50,7 +51,8 @@ api::BredIndividual individual_text(const RoomIndividual& one, const api::Taste*
 
 std::string hint_of(std::int64_t depth) {
   if (depth < kTiring) return "";
-  return fmt::format("{}: choose one, or branch from an earlier generation", counted(static_cast<std::size_t>(depth), "generation"));
+  return fmt::format("{}: choose one, or branch from an earlier generation",
+                     counted(static_cast<std::size_t>(depth), "generation"));
 }
 
 }  // namespace
@@ -108,7 +110,8 @@ api::Lineage lineage_text(const BreedingSession& session) {
   text.session = session.number();
   for (const BredRow& row : session.lineage()) {
     if (!row.present) continue;
-    text.individuals.push_back({row.id, row.generation, origin_of<api::LineageNodeOrigin>(row), row.parents, row.rating, row.edited});
+    text.individuals.push_back(
+        {row.id, row.generation, origin_of<api::LineageNodeOrigin>(row), row.parents, row.rating, row.edited});
   }
   return text;
 }

@@ -20,9 +20,10 @@ WholeBreeding BreedingStore::whole(std::int64_t project, std::int64_t session) {
   std::map<std::string, std::string> texts;
   store_.alone([&](Database& database) {
     // All that no state names: derivations, those among them that recipes alone name.
-    Statement ask = database.prepare("select hash, bytes from breeding_text where session = ?1 and hash not in (select grammar from "
-                                     "breeding_generation where session = ?1 union select scene from breeding_generation where "
-                                     "session = ?1 union select files from breeding_generation where session = ?1)");
+    Statement ask = database.prepare(
+        "select hash, bytes from breeding_text where session = ?1 and hash not in (select grammar from "
+        "breeding_generation where session = ?1 union select scene from breeding_generation where "
+        "session = ?1 union select files from breeding_generation where session = ?1)");
     ask.bind(session);
     while (ask.step()) texts.emplace(ask.text(0), ask.text(1));
   });
@@ -36,7 +37,8 @@ std::int64_t BreedingStore::insert(std::int64_t project, const WholeBreeding& wh
     Transaction transaction(database);
     session = add_session(database, project, whole.head);
     for (const auto& [hash, bytes] : whole.files) {
-      if (bytes.size() > Store::kMostFileBytes) throw Error(fmt::format("a file has at most {} bytes", Store::kMostFileBytes));
+      if (bytes.size() > Store::kMostFileBytes)
+        throw Error(fmt::format("a file has at most {} bytes", Store::kMostFileBytes));
       database.prepare("insert or ignore into blob values (?, ?, ?)").bind(project).bind(hash).bind_blob(bytes).run();
     }
     {

@@ -41,10 +41,19 @@ std::int64_t add_session(Database& database, std::int64_t project, const Breedin
   if (ask.bind(project).step() && ask.whole(0) >= BreedingStore::kMostBreedings) {
     throw Error(fmt::format("a project has at most {} breeding sessions", BreedingStore::kMostBreedings));
   }
-  database.prepare("insert into breeding_session (project, name, method, changed, revision, seed, settings, locked, generation, "
-                   "step, bytes) values (?, ?, ?, ?, 1, ?, ?, ?, ?, 0, 0)")
-      .bind(project).bind(head.summary.name).bind(head.summary.method).bind(now()).bind(head.seed).bind(head.settings)
-      .bind(head.locked).bind(std::max<std::int64_t>(head.generation, 1)).run();
+  database
+      .prepare(
+          "insert into breeding_session (project, name, method, changed, revision, seed, settings, locked, generation, "
+          "step, bytes) values (?, ?, ?, ?, 1, ?, ?, ?, ?, 0, 0)")
+      .bind(project)
+      .bind(head.summary.name)
+      .bind(head.summary.method)
+      .bind(now())
+      .bind(head.seed)
+      .bind(head.settings)
+      .bind(head.locked)
+      .bind(std::max<std::int64_t>(head.generation, 1))
+      .run();
   return database.last_row();
 }
 
@@ -65,7 +74,12 @@ void BreedingWriter::keep_text(const std::string& hash, const std::string& text)
     if (ask.bind(session_).bind(hash).step()) return;
   }
   const std::int64_t since = count("select count(*) from breeding_generation where session = ?");
-  database_.prepare("insert into breeding_text values (?, ?, ?, ?)").bind(session_).bind(hash).bind(since).bind_blob(text).run();
+  database_.prepare("insert into breeding_text values (?, ?, ?, ?)")
+      .bind(session_)
+      .bind(hash)
+      .bind(since)
+      .bind_blob(text)
+      .run();
   database_.prepare("update breeding_session set bytes = bytes + ? where id = ?")
       .bind(static_cast<std::int64_t>(text.size())).bind(session_).run();
 }
@@ -74,7 +88,8 @@ void BreedingWriter::keep_text(const std::string& hash, const std::string& text)
 void BreedingWriter::forget_text(const std::string& hash) {
   Statement ask = database_.prepare(
       "select length(bytes) from breeding_text where session = ?1 and hash = ?2 and since = (select count(*) from "
-      "breeding_generation where session = ?1) and not exists (select 1 from breeding_individual where session = ?1 and "
+      "breeding_generation where session = ?1) and not exists (select 1 from breeding_individual where session = ?1 "
+      "and "
       "(derivation = ?2 or born = ?2)) and not exists (select 1 from breeding_change where session = ?1 and "
       "(before = ?2 or after = ?2))");
   if (!ask.bind(session_).bind(hash).step()) return;
@@ -92,8 +107,9 @@ void BreedingWriter::add_generation(const StoredGeneration& one) {
   const std::array<std::string, 3> texts = {one.state.grammar, one.state.scene, files};
   std::array<std::string, 3> hashes;
   for (std::size_t i = 0; i < texts.size(); ++i) keep_text(hashes[i] = content_hash(texts[i]), texts[i]);
-  Statement insert = database_.prepare("insert into breeding_generation (session, number, parent, label, grammar, scene, files, "
-                                       "recipe, seconds, diversity) values (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement insert = database_.prepare(
+      "insert into breeding_generation (session, number, parent, label, grammar, scene, files, "
+      "recipe, seconds, diversity) values (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(session_).bind(one.number).bind(one.parent).bind(one.label);
   for (const std::string& hash : hashes) insert.bind(hash);
   insert.bind_blob(one.recipe).bind(one.seconds);
@@ -110,14 +126,27 @@ void BreedingWriter::add_individual(const BredRow& row) {
                             BreedingStore::kMostIndividuals));
   }
   Statement insert = database_.prepare("insert into breeding_individual values (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  insert.bind(session_).bind(row.id).bind(row.generation).bind(row.place).bind(row.origin).bind(row.born).bind(row.derivation)
-      .bind(std::int64_t{row.edited}).bind(std::int64_t{row.present}).bind_maybe(row.role).run();
+  insert.bind(session_)
+      .bind(row.id)
+      .bind(row.generation)
+      .bind(row.place)
+      .bind(row.origin)
+      .bind(row.born)
+      .bind(row.derivation)
+      .bind(std::int64_t{row.edited})
+      .bind(std::int64_t{row.present})
+      .bind_maybe(row.role)
+      .run();
   for (std::size_t i = 0; i < row.parents.size(); ++i) {
     database_.prepare("insert into breeding_lineage values (?, ?, ?, ?)")
         .bind(session_).bind(row.id).bind(static_cast<std::int64_t>(i)).bind(row.parents[i]).run();
   }
   if (row.rating) {
-    database_.prepare("insert into breeding_rating values (?, ?, ?)").bind(session_).bind(row.id).bind(*row.rating).run();
+    database_.prepare("insert into breeding_rating values (?, ?, ?)")
+        .bind(session_)
+        .bind(row.id)
+        .bind(*row.rating)
+        .run();
   }
 }
 
@@ -130,7 +159,8 @@ void BreedingWriter::apply(BreedingField field, std::int64_t subject, const std:
   switch (field) {
     case BreedingField::settings: return set_session("update breeding_session set settings = ? where id = ?");
     case BreedingField::locked: return set_session("update breeding_session set locked = ? where id = ?");
-    case BreedingField::generation: return set_session("update breeding_session set generation = cast(? as integer) where id = ?");
+    case BreedingField::generation:
+      return set_session("update breeding_session set generation = cast(? as integer) where id = ?");
     case BreedingField::derivation:
       return set_individual("update breeding_individual set derivation = ? where session = ? and id = ?");
     case BreedingField::edited:
@@ -138,10 +168,14 @@ void BreedingWriter::apply(BreedingField field, std::int64_t subject, const std:
     case BreedingField::present:
       return set_individual("update breeding_individual set present = cast(? as integer) where session = ? and id = ?");
     case BreedingField::compared:
-      return set_individual("update breeding_comparison set present = cast(? as integer) where session = ? and number = ?");
+      return set_individual(
+          "update breeding_comparison set present = cast(? as integer) where session = ? and number = ?");
     case BreedingField::rating:
       if (!value) {
-        database_.prepare("delete from breeding_rating where session = ? and individual = ?").bind(session_).bind(subject).run();
+        database_.prepare("delete from breeding_rating where session = ? and individual = ?")
+            .bind(session_)
+            .bind(subject)
+            .run();
       } else {
         database_.prepare("insert or replace into breeding_rating values (?, ?, ?)")
             .bind(session_).bind(subject).bind(number_in(text)).run();
@@ -154,14 +188,16 @@ void BreedingWriter::touch(std::int64_t step) {
       .bind(step).bind(now()).bind(session_).run();
 }
 
-/// The step joins the one before, which is of the same gesture: of each field it knows the first before and the last after.
+/// The step joins the one before, which is of the same gesture: of each field it knows the first before and the last
+/// after.
 void BreedingWriter::join(std::int64_t number, const BreedingStep& step) {
   for (const BreedingChange& change : step.changes) {
     std::int64_t place = -1;
     std::optional<std::string> old;
     {
-      Statement ask = database_.prepare("select number, after from breeding_change where session = ? and step = ? and field = ? "
-                                        "and subject = ?");
+      Statement ask = database_.prepare(
+          "select number, after from breeding_change where session = ? and step = ? and field = ? "
+          "and subject = ?");
       ask.bind(session_).bind(number).bind(name_of(change.field)).bind(change.subject);
       if (ask.step()) place = ask.whole(0), old = ask.maybe_text(1);
     }
@@ -200,8 +236,9 @@ void BreedingWriter::add(const BreedingStep& step) {
         .bind(session_).bind(one.number).bind(one.better).bind(one.worse).run();
   }
   if (count("select bytes from breeding_session where id = ?") > BreedingStore::kMostBytes) {
-    throw Error(fmt::format("the derivations and texts of a session have at most {} bytes: begin another one from your favourites",
-                            BreedingStore::kMostBytes));
+    throw Error(fmt::format(
+        "the derivations and texts of a session have at most {} bytes: begin another one from your favourites",
+        BreedingStore::kMostBytes));
   }
 }
 
@@ -217,8 +254,9 @@ void BreedingWriter::take(const BreedingStep& step) {
   for (const BreedingChange& change : step.changes) apply(change.field, change.subject, change.after);
   bool joins = false;
   if (!step.gesture.empty()) {
-    Statement ask = database_.prepare("select gesture from breeding_step where session = ?1 and number = ?2 and not exists ("
-                                      "select 1 from breeding_step where session = ?1 and number > ?2)");
+    Statement ask = database_.prepare(
+        "select gesture from breeding_step where session = ?1 and number = ?2 and not exists ("
+        "select 1 from breeding_step where session = ?1 and number > ?2)");
     joins = ask.bind(session_).bind(head).step() && ask.text(0) == step.gesture;
   }
   if (joins) {

@@ -16,7 +16,8 @@ namespace espalier::studio {
 namespace {
 
 constexpr const char* kDegrees = "deg";  // as the language writes them
-/// What a draw's range comes to is asked gene by gene, of the whole derivation; beyond so much work ranges are left out.
+/// What a draw's range comes to is asked gene by gene, of the whole derivation; beyond so much work ranges are left
+/// out.
 constexpr std::size_t kMostRangeWork = 2'000'000;
 
 struct GeneDraws {
@@ -40,7 +41,8 @@ std::vector<GeneDraws> genes_with_draws(const GeneratorGraph& graph, const Deriv
 
 }  // namespace
 
-std::vector<api::BredGene> individual_genes(const Setup& setup, const Derivation& derivation, const Held& held, bool& truncated) {
+std::vector<api::BredGene> individual_genes(const Setup& setup, const Derivation& derivation, const Held& held,
+                                            bool& truncated) {
   const GeneratorGraph& graph = setup.graph();
   const std::vector<GeneDraws> genes = genes_with_draws(graph, derivation, truncated);
   const GrammarOutline outline = outline_of(*setup.grammar.checked, setup.grammar.sources);
@@ -100,7 +102,8 @@ void set_draw(const GeneratorGraph& graph, Derivation& derivation, const api::Dr
 
 void require_place(const GeneratorGraph& graph, const api::DrawPlace& place) {
   Held held;
-  held.draws.push_back({parse_gene_path(graph, place.path), static_cast<std::uint16_t>(std::min<std::int64_t>(place.index, 0xffff))});
+  held.draws.push_back(
+      {parse_gene_path(graph, place.path), static_cast<std::uint16_t>(std::min<std::int64_t>(place.index, 0xffff))});
   validate(graph, held);
 }
 

@@ -6,7 +6,8 @@
 
 namespace espalier::studio {
 
-void ProjectSession::send_to_room(const WebSocketPtr& socket, const api::Request& request, std::optional<std::int64_t> number) {
+void ProjectSession::send_to_room(const WebSocketPtr& socket, const api::Request& request,
+                                  std::optional<std::int64_t> number) {
   RoomRequest asked{socket, request, number, {}};
   if (const auto* start = std::get_if<api::StartBreeding>(&request)) {
     if (start->from == api::StartBreedingFrom::shown) {
@@ -67,11 +68,13 @@ void ProjectSession::answer_task(const WebSocketPtr& socket, std::optional<std::
   if (!taken) socket->out.push_text(to_text(api::Failed{number, "the project is busy"}));
 }
 
-void ProjectSession::keep_bred(const WebSocketPtr& socket, const StoredFavourite& favourite, std::optional<std::int64_t> number) {
+void ProjectSession::keep_bred(const WebSocketPtr& socket, const StoredFavourite& favourite,
+                               std::optional<std::int64_t> number) {
   answer_task(socket, number, [this, favourite] { keep(favourite); });
 }
 
-void ProjectSession::show_bred(const WebSocketPtr& socket, const std::string& derivation, std::optional<std::int64_t> number) {
+void ProjectSession::show_bred(const WebSocketPtr& socket, const std::string& derivation,
+                               std::optional<std::int64_t> number) {
   answer_task(socket, number, [this, derivation] { show_by_hand("Show an individual", "", derivation); });
 }
 

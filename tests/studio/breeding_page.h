@@ -29,7 +29,8 @@ class BreedingPage {
   std::string ask(const std::string& kind, json request = json::object()) {
     const int number = send(kind, std::move(request));
     while (read()) {
-      if ((last_["kind"] == "done" || last_["kind"] == "failed") && last_.value("request", 0) == number) return last_.value("text", "");
+      if ((last_["kind"] == "done" || last_["kind"] == "failed") && last_.value("request", 0) == number)
+        return last_.value("text", "");
     }
     return "the connection ended";
   }
@@ -57,7 +58,8 @@ class BreedingPage {
       for (const json& one : seen["breeding"]["individuals"]) {
         const std::int64_t id = one["id"];
         if (one.contains("missing")) continue;
-        if (bred.count(id) == 0 || bred[id]["version"] != one["version"] || bred[id]["session"] != session()["id"]) return false;
+        if (bred.count(id) == 0 || bred[id]["version"] != one["version"] || bred[id]["session"] != session()["id"])
+          return false;
       }
       return true;
     };
