@@ -33,7 +33,6 @@ afterEach(async () => {
 
 const cell = (id: number) => page.locator(`[data-individual="${id}"]`);
 const generation = (number: number) => page.getByRole("heading", { name: `Generation ${number}`, exact: true }).waitFor();
-const grown = () => page.waitForFunction(() => document.querySelector("[data-individual]") !== null && document.querySelector(".cell-words") === null);
 
 async function begin(sample: string, classic = false): Promise<void> {
   await page.getByRole("dialog", { name: "Projects" }).locator(".samples").getByText(sample, { exact: true }).click();
@@ -46,26 +45,24 @@ async function begin(sample: string, classic = false): Promise<void> {
 }
 
 test("a session: rate, breed, edit, lock, blend, branch, undo, export", async () => {
-  await begin("Guided bonsai");
-  await grown();
+  await begin("Gentree");
   expect(await page.getByRole("gridcell").count()).toBe(12);
   await cell(2).focus();
   for (const key of ["+", "ArrowRight", "-"]) await page.keyboard.press(key);
   await cell(2).and(page.locator("[aria-label*='+1']")).waitFor();
   await page.keyboard.press("n");
   await generation(2);
-  await grown();
   // The liked one is copied, with its rating.
   const copy = page.getByRole("gridcell", { name: /\+1, copy/ });
   await copy.waitFor();
-  const slider = page.getByRole("slider", { name: "bend" }).first();
+  const slider = page.getByRole("slider", { name: "taper" }).first();
   const value = await slider.getAttribute("aria-valuetext");
   await slider.focus();
   await page.keyboard.press("Home");
   await page.getByRole("gridcell", { name: /edited by hand/ }).waitFor();
   await expect.poll(() => slider.getAttribute("aria-valuetext")).not.toBe(value);
-  await page.getByRole("button", { name: "Lock bend" }).first().click();
-  await page.getByRole("button", { name: "Free bend" }).first().waitFor();
+  await page.getByRole("button", { name: "Lock taper" }).first().click();
+  await page.getByRole("button", { name: "Free taper" }).first().waitFor();
   const shown = page.getByRole("gridcell");
   for (const at of [1, 2, 3]) {
     await shown.nth(at).focus();
