@@ -2,7 +2,7 @@
 import type { Scene, Value } from "../api";
 import { patched } from "../store/scene";
 
-export const ENGINES = ["guided", "ga", "sosmc", "smc", "rjmcmc", "hybrid"] as const;
+export const ENGINES = ["guided", "ga", "sosmc", "smc", "rjmcmc", "hybrid", "genesis"] as const;
 export type Engine = (typeof ENGINES)[number];
 
 export const ENGINE_NAMES: Record<Engine, string> = {
@@ -12,6 +12,7 @@ export const ENGINE_NAMES: Record<Engine, string> = {
   smc: "SMC",
   rjmcmc: "RJMCMC",
   hybrid: "Hybrid",
+  genesis: "Genesis (bit strings)",
 };
 
 export type Setting =
@@ -91,6 +92,18 @@ export const ENGINE_SETTINGS: Record<Engine, readonly Setting[]> = {
     number("sweeps", "Sweeps", 1, 1, 1000, whole),
     number("start_evaluations", "Start", 2000, 1, 1e9, { ...whole, title: "Evaluations before the others take over." }),
     number("turn", "Turn", 3000, 1, 1e9, { ...whole, title: "Evaluations of a turn." }),
+  ],
+  genesis: [
+    number("population", "Population", 50, 2, 100000, { ...whole, title: "Only for grammars whose genome is the draws of the start rule." }),
+    number("crossover", "Crossover", 0.6, 0, 1, { step: 0.05 }),
+    number("mutation", "Mutation", 0.001, 0, 1, { step: 0.001, title: "Chance of each bit to be drawn anew." }),
+    number("gap", "Generation gap", 1, 0.01, 1, { ...more, step: 0.05, title: "Share of the population that is replaced." }),
+    choice("selection", "Selection", ["proportional", "ranking"]),
+    number("window", "Scaling window", 5, 0, 1e6, { ...whole, ...more, title: "Generations whose worst is the zero of fitness." }),
+    number("rank_min", "Places of the worst", 0.75, 0, 1, { ...more, step: 0.05, title: "With ranking." }),
+    bool("elitism", "Elite", true, "The best is put back where it was lost."),
+    bool("gray", "Gray code", true, "Neighbouring values differ in one bit."),
+    number("idle", "Begin anew after", 2, 1, 1000, { ...whole, ...more, title: "Generations with nothing new to score." }),
   ],
 };
 
