@@ -20,7 +20,7 @@ export function SettingsPanel() {
         <h3>You</h3>
         <ChoiceField label="May" value={settings.mode ?? "rate_and_edit"} choices={kModes} names={kModeNames} onChange={(mode) => set({ mode })} />
         <CheckField label="Learn my taste" value={settings.taste ?? false} title="A model of your taste chooses what is shown from a hidden pool of candidates, and says why" onChange={(taste) => set({ taste })} />
-        <Taste why={breeding.taste_why} pool={breeding.pool} on={settings.taste ?? false} />
+        <Taste why={breeding.taste_why} on={settings.taste ?? false} />
       </section>
       <section aria-label="Next generation">
         <h3>Next generation</h3>
@@ -41,11 +41,10 @@ export function SettingsPanel() {
   );
 }
 
-function Taste({ why, pool, on }: { why: readonly string[] | undefined; pool: number | undefined; on: boolean }) {
+function Taste({ why, on }: { why: readonly string[] | undefined; on: boolean }) {
   if (!on) return null;
   return (
     <div class="taste">
-      {pool !== undefined && <p class="hint">This screen was chosen from {pool} candidates.</p>}
       {why === undefined || why.length === 0
         ? <p class="hint">Not learnt much yet: rate some models, for and against.</p>
         : <><p>You seem to like</p><ul>{why.map((one) => <li key={one}>{one}</li>)}</ul></>}

@@ -67,7 +67,7 @@ export class MockSession {
       individuals: this.here.members.map(({ quantiles: _, ...one }, i) => (taste
         ? { ...one, role: i % 5 === 3 ? "different" as const : i % 5 === 4 ? "uncertain" as const : "best" as const, taste: { mean: 1.4 - 0.2 * i, sd: 0.6, why: ["for: a wide crown", "against: few leaves"] } }
         : one)),
-      diversity: this.diversity(), ...(taste ? { pool: 120, taste_why: ["wide crowns", "many leaves", "thin trunks"] } : {}),
+      diversity: this.diversity(), ...(taste ? { taste_why: ["wide crowns", "many leaves", "thin trunks"] } : {}),
       ...(undo === undefined ? {} : { undo }), ...(redo === undefined ? {} : { redo }),
       ...(this.generations.length >= 10 ? { hint: "10 generations: choose one, or branch from an earlier one" } : {}),
     };
