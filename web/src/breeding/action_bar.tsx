@@ -23,7 +23,7 @@ export function ActionBar() {
             <Slider label="Mutation" title="From subtle to wild: how far children stray from their parents" value={strength} min={0} max={1} step={0.01} words={dialWords(strength)} onChange={(value, gesture) => room.set({ strength: value }, gesture)} />
           </div>
         )}
-      {breeding.diversity !== undefined && <Diversity value={breeding.diversity} />}
+      <Diversity value={breeding.diversity} />
       <p class={breeding.problem === undefined ? "action-words dim" : "action-words facts-bad"} role="status" title={[words, ...(breeding.notes ?? [])].join("\n")}>{words}</p>
       <button type="button" class="button primary breed-button" disabled={waiting !== null || breeding.problem !== undefined} title="Next generation (N or Enter)" onClick={() => room.breed()}>
         {waiting === null ? <>Next generation<Icon name="right" /></> : <><span class="spinner" />{waiting}</>}
@@ -32,13 +32,14 @@ export function ActionBar() {
   );
 }
 
-function Diversity({ value }: { value: number }) {
-  const words = diversityWords(value);
+/** Its place is there before it is measured. */
+function Diversity({ value }: { value: number | undefined }) {
+  const words = value === undefined ? "…" : diversityWords(value);
   return (
-    <div class="diversity" title={`Diversity ${Math.round(100 * value)} %: how different the models of this screen are. Newcomers and a wilder mutation raise it.`}>
+    <div class="diversity" title="How different the models of this screen are. Newcomers and a wilder mutation raise it.">
       <span>Diversity</span>
-      <span class="diversity-track" role="meter" aria-label="Diversity" aria-valuemin={0} aria-valuemax={1} aria-valuenow={value} aria-valuetext={words}>
-        <span class={value < 0.08 ? "low" : ""} style={{ width: `${100 * value}%` }} />
+      <span class="diversity-track" role="meter" aria-label="Diversity" aria-valuemin={0} aria-valuemax={1} aria-valuenow={value ?? 0} aria-valuetext={words}>
+        <span class={(value ?? 1) < 0.08 ? "low" : ""} style={{ width: `${100 * (value ?? 0)}%` }} />
       </span>
       <span class="dim">{words}</span>
     </div>
