@@ -1,5 +1,5 @@
-// How many ratings it costs to breed a tree that somebody has in mind: a simulated user with a hidden favourite rates trees
-// of grammars/gentree.esp. Writes tables for bench/experiments.
+// How many ratings it costs to breed a tree that somebody has in mind: a simulated user with a hidden favourite rates
+// trees of grammars/gentree.esp. Writes tables for bench/experiments.
 //
 //   breeding_study --out DIR [--favourites N] [--first N] [--threads N] [--tune NAME=VALUE ...]
 //
@@ -233,8 +233,8 @@ double shape_distance(const LoadedGrammar& grammar, const MeshTable& meshes, con
   return median(distance(described(a, 0), described(b, draw)), VoxelChoice::occupied);
 }
 
-/// What the distances of shapes are to be held against: the favourite's to itself by other random points of the surface, and
-/// to another viable tree.
+/// What the distances of shapes are to be held against: the favourite's to itself by other random points of the
+/// surface, and to another viable tree.
 std::string shapes_of(std::uint32_t which, const Derivation& favourite, const LoadedGrammar& grammar,
                       const MeshTable& meshes) {
   const Derivation other = draw_favourite(grammar, meshes, which + 500'000);
@@ -256,8 +256,8 @@ MethodRow run_method(Method method, std::size_t noise, std::uint32_t which, cons
   const double shape =
       options.shapes ? shape_distance(grammar, meshes, session.best_tree(), favourite) : 0;
   MethodRow row;
-  row.line = fmt::format("{},{},{},{},{:.5f},{:.5f},{:.5f}\n", which, name, kNoises[noise].name, session.needed(), close,
-                         session.best(), shape);
+  row.line = fmt::format("{},{},{},{},{:.5f},{:.5f},{:.5f}\n", which, name, kNoises[noise].name, session.needed(),
+                         close, session.best(), shape);
   for (std::size_t i = 0; i < session.curve.size(); ++i) {
     row.curve += fmt::format("{},{},{},{},{:.5f}\n", which, name, kNoises[noise].name, (i + 1) * kCurveStep,
                              session.curve[i]);
@@ -276,9 +276,9 @@ void edit(const GeneratorGraph& graph, const Derivation& favourite, SimulatedUse
   tree.draws[worst] = static_cast<std::uint32_t>((std::uint64_t{tree.draws[worst]} + favourite.draws[worst]) / 2);
 }
 
-/// One generation of GenTree's variants (Congdon and Mazza 2003, section 4.3), seconds that it took: 9 for each rating, of
-/// new trees alone, and 36 for each edited tree, its new rating included. Variant 2 edits all trees, variant 4 the better
-/// half of what it rated: that makes the paper's 26 s per tree.
+/// One generation of GenTree's variants (Congdon and Mazza 2003, section 4.3), seconds that it took: 9 for each
+/// rating, of new trees alone, and 36 for each edited tree, its new rating included. Variant 2 edits all trees,
+/// variant 4 the better half of what it rated: that makes the paper's 26 s per tree.
 double attend(int variant, const GeneratorGraph& graph, const Derivation& favourite, SimulatedUser& user,
               std::vector<Member>& members) {
   constexpr double kEdit = 36, kRate = 9;
@@ -354,15 +354,17 @@ int study(const Options& options) {
     const Derivation favourite = draw_favourite(grammar, meshes, which);
     const double close = close_to(grammar, SimulatedUser(*grammar.graph, favourite, 0, 0));
     for (std::size_t kind = 0; kind < kKinds; ++kind) {
-      rows[f * kKinds + kind] = run_method(static_cast<Method>(kind / std::size(kNoises)), kind % std::size(kNoises), which,
-                                           favourite, close, options, grammar, meshes);
+      const auto method = static_cast<Method>(kind / std::size(kNoises));
+      rows[f * kKinds + kind] =
+          run_method(method, kind % std::size(kNoises), which, favourite, close, options, grammar, meshes);
     }
     if (options.shapes) shapes[f] = shapes_of(which, favourite, grammar, meshes);
     for (int variant = 1; variant <= 4; ++variant) {
       variants[f * 4 + static_cast<std::size_t>(variant - 1)] = run_variant(variant, which, favourite, grammar);
     }
   });
-  std::string methods = "favourite,method,noise,ratings,close,best,shape\n", curves = "favourite,method,noise,ratings,best\n";
+  std::string methods = "favourite,method,noise,ratings,close,best,shape\n";
+  std::string curves = "favourite,method,noise,ratings,best\n";
   for (const MethodRow& row : rows) methods += row.line, curves += row.curve;
   std::string lines = "favourite,variant,generations,best,mean,diversity\n";
   for (const std::string& line : variants) lines += line;

@@ -39,7 +39,8 @@ class Appraiser {
 class GenomeAppraiser final : public Appraiser {
  public:
   explicit GenomeAppraiser(std::shared_ptr<const GeneratorGraph> graph) : graph_(std::move(graph)), features_(*graph_) {
-    names_.assign(features_.names().begin(), features_.names().begin() + static_cast<std::ptrdiff_t>(features_.genome_size()));
+    const auto first = features_.names().begin();
+    names_.assign(first, first + static_cast<std::ptrdiff_t>(features_.genome_size()));
   }
   std::vector<Appraisal> appraise(std::span<const Derivation* const> candidates) override;
   const std::vector<std::string>& feature_names() const override { return names_; }
@@ -55,13 +56,14 @@ class ModelAppraiser final : public Appraiser {
  public:
   struct Settings {
     ViabilitySettings viability;
-    /// Of candidates: what is larger counts as truncated, and is not viable. Smaller than for files: a first screen looks
-    /// at dozens of models in a second.
-    ExpandLimits limits = {.most_parts = 100'000, .most_turns = 1'000'000, .most_copies = 400'000, .make_materials = false};
+    /// Of candidates: what is larger counts as truncated, and is not viable. Smaller than for files: a first screen
+    /// looks at dozens of models in a second.
+    ExpandLimits limits = {
+        .most_parts = 100'000, .most_turns = 1'000'000, .most_copies = 400'000, .make_materials = false};
   };
 
-  /// `targets` may be null; what it does not accept is not viable. All references must outlive this. Throws Error for bad
-  /// settings.
+  /// `targets` may be null; what it does not accept is not viable. All references must outlive this. Throws Error for
+  /// bad settings.
   ModelAppraiser(std::shared_ptr<const GeneratorGraph> graph, const MeshTable& meshes, const Settings& settings,
                  BatchScorer* targets, Executor& executor);
   ~ModelAppraiser() override;

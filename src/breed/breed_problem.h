@@ -1,6 +1,6 @@
 #pragma once
-// BreedProblem: what is bred, and what is held while it is. Everything that breeding draws is a function of `seed`, `draw`
-// and the number of the generation.
+// BreedProblem: what is bred, and what is held while it is. Everything that breeding draws is a function of `seed`,
+// `draw` and the number of the generation.
 
 #include <cstdint>
 #include <memory>

@@ -30,7 +30,8 @@ void validate(const GeneratorGraph& graph, const Held& held) {
   for (const DrawLock& lock : held.draws) {
     const Rule& rule = rule_at(graph, lock.path);
     if (lock.draw >= rule.draws.size()) {
-      throw Error(fmt::format("lock: rule {} has {} draws, there is no draw {}", rule.name, rule.draws.size(), lock.draw));
+      throw Error(fmt::format("lock: rule {} has {} draws, there is no draw {}", rule.name, rule.draws.size(),
+                              lock.draw));
     }
   }
 }
@@ -65,7 +66,8 @@ std::vector<std::uint8_t> held_draws(const GeneratorGraph& graph, const Derivati
 void keep_held_draws(const GeneratorGraph& graph, const Derivation& from, const Held& held, Derivation& child) {
   for (const DrawLock& lock : held.draws) {
     const std::int64_t there = find_draw(graph, from, lock), here = find_draw(graph, child, lock);
-    if (there >= 0 && here >= 0) child.draws[static_cast<std::size_t>(here)] = from.draws[static_cast<std::size_t>(there)];
+    if (there < 0 || here < 0) continue;
+    child.draws[static_cast<std::size_t>(here)] = from.draws[static_cast<std::size_t>(there)];
   }
 }
 

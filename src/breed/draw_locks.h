@@ -11,7 +11,8 @@
 
 namespace espalier {
 
-/// One draw of the gene that a path leads to. Where no such gene stands, or its variant lacks the draw, it holds nothing.
+/// One draw of the gene that a path leads to. Where no such gene stands, or its variant lacks the draw, it holds
+/// nothing.
 struct DrawLock {
   std::vector<std::uint16_t> path;  // rule-slot indices from the start gene
   std::uint16_t draw = 0;           // index into Rule::draws

@@ -2,7 +2,7 @@
 // Features: a derivation and its model as a list of numbers of fixed length, for comparing them and for learning what a
 // person likes. All are about 0..1.
 //
-//   draws of the start rule   their quantiles; two numbers (cosine, sine) for circular ones; 1/2 where a variant lacks one
+//   draws of the start rule   their quantiles; two numbers (cosine, sine) for circular ones; 1/2 where one is lacking
 //   genes                     per rule other than the start rule: how many, on a log scale; and the means of its draws
 //   measures                  triangles, height, spread and volume on log scales, balance
 //   shape                     per quarter of the height: share of the parts, and how far they reach from the axis

@@ -18,17 +18,17 @@ struct FirstGeneration {
   std::string note;             // what was short, in words; empty where nothing was
 };
 
-/// Draws kPoolPerMember per member (spread out by the farthest-point rule on their features: each next one is the one whose
-/// nearest chosen neighbour is farthest; the first is the one nearest to the pool's mean), more in rounds until
-/// settings.population viable ones are found or kMostDrawsPerMember were tried. Where there are `founders` (presets, a
-/// model a person likes), they come first, as they are. Pure.
+/// Draws kPoolPerMember per member (spread out by the farthest-point rule on their features: each next one is the one
+/// whose nearest chosen neighbour is farthest; the first is the one nearest to the pool's mean), more in rounds until
+/// settings.population viable ones are found or kMostDrawsPerMember were tried. Where there are `founders` (presets,
+/// a model a person likes), they come first, as they are. Pure.
 FirstGeneration first_generation(const BreedProblem& problem, const BreedSettings& settings,
                                  const std::vector<Derivation>& founders, MemberId first_id);
 
 inline constexpr std::uint32_t kPoolPerMember = 4, kMostDrawsPerMember = 40;
 
-/// `count` indices of the points, each next one farthest from those before (its own nearest neighbour among them); features
-/// are scaled by their spread in the pool. All of them where there are fewer.
+/// `count` indices of the points, each next one farthest from those before (its own nearest neighbour among them);
+/// features are scaled by their spread in the pool. All of them where there are fewer.
 std::vector<std::size_t> farthest_points(const std::vector<std::vector<double>>& points, std::size_t count);
 
 }  // namespace espalier

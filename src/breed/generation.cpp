@@ -17,9 +17,9 @@
 namespace espalier {
 namespace {
 
-// Chosen with bench/breeding_study on favourites other than those that docs/experiments.md reports (--first 1000, 100 of
-// them, median ratings of the steady user): without leaning 57, with one pair 52, with three 43. Mutating every crossed
-// child: 43; three in ten: 39.
+// Chosen with bench/breeding_study on favourites other than those that docs/experiments.md reports (--first 1000, 100
+// of them, median ratings of the steady user): without leaning 57, with one pair 52, with three 43. Mutating every
+// crossed child: 43; three in ten: 39.
 constexpr int kLeanPairs = 3;
 constexpr double kLean = 0.5;  // of the way from the worse to the better, on average, all pairs together
 constexpr double kMutateCrossed = 0.4;
@@ -202,8 +202,8 @@ Candidate make_candidate(const BreedProblem& problem, const BreedSettings& setti
     const bool mix = random.chance(settings.blend);
     for (std::size_t i = 1; i < (mix ? Member::kMostParents : 2); ++i) {
       const std::size_t other = pick(chances, random);
-      const bool known = std::find(candidate.parents.begin(), candidate.parents.end(), other) != candidate.parents.end();
-      if (!known) candidate.parents.push_back(other);
+      std::vector<std::size_t>& chosen = candidate.parents;
+      if (std::find(chosen.begin(), chosen.end(), other) == chosen.end()) chosen.push_back(other);
     }
     if (candidate.parents.size() > 1) {
       candidate.derivation = mix ? mixture(graph, parents, candidate.parents, problem.held, random)
@@ -211,7 +211,9 @@ Candidate make_candidate(const BreedProblem& problem, const BreedSettings& setti
       candidate.origin = mix ? Origin::blended : Origin::crossed;
     }
   }
-  if (random.chance(settings.lean)) lean_by_ratings(graph, settings, parents, problem.held, random, candidate.derivation);
+  if (random.chance(settings.lean)) {
+    lean_by_ratings(graph, settings, parents, problem.held, random, candidate.derivation);
+  }
   if (candidate.parents.size() > 1 && !random.chance(kMutateCrossed)) return candidate;
   candidate.derivation = mutate(graph, candidate.derivation, problem.held, settings.strength, random);
   return candidate;
@@ -231,9 +233,10 @@ class Filler {
   /// Of `surplus` viable candidates per place, the one with the best score. At most kMostTries candidates per place.
   void fill(std::uint32_t places, bool newcomers, std::uint32_t surplus, NextGeneration& next) {
     std::vector<std::pair<double, Candidate>> found;
-    for (std::uint32_t tries = 0; tries < kMostTries && found.size() < std::size_t{places} * surplus; tries += surplus) {
+    const std::size_t wanted = std::size_t{places} * surplus;
+    for (std::uint32_t tries = 0; tries < kMostTries && found.size() < wanted; tries += surplus) {
       std::vector<Candidate> candidates;
-      for (std::size_t i = found.size(); i < std::size_t{places} * surplus; ++i) {
+      for (std::size_t i = found.size(); i < wanted; ++i) {
         candidates.push_back(make_candidate(problem_, settings_, parents_, number_, made_++, newcomers));
       }
       const std::vector<Appraisal> appraisals = appraise(problem_, candidates);

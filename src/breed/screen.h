@@ -1,6 +1,6 @@
 #pragma once
-// The screen of a taste model: a hidden pool of candidates is bred and ordered by what a person will probably say of them,
-// and the person sees the best, one that is different, and one of which the model is unsure.
+// The screen of a taste model: a hidden pool of candidates is bred and ordered by what a person will probably say of
+// them, and the person sees the best, one that is different, and one of which the model is unsure.
 
 #include <cstdint>
 #include <string>
@@ -34,13 +34,13 @@ struct Screen {
   std::vector<std::string> reasons;  // Taste::reasons; "" where there are none
 };
 
-/// The next generation as next_generation makes it freely, but chosen from the pool. Targets' scores and what is not viable
-/// count as there. Pure.
+/// The next generation as next_generation makes it freely, but chosen from the pool. Targets' scores and what is not
+/// viable count as there. Pure.
 Screen next_screen(const BreedProblem& problem, const BreedSettings& settings, const ScreenSettings& screen,
                    const std::vector<Member>& parents, const Taste& taste, std::uint32_t number, MemberId first_id);
 
-/// How unlike each other these are: the mean distance of their features over that of `reference` (what the grammar grows at
-/// random, at least two), clamped to 0..1. 1 where there are fewer than two.
+/// How unlike each other these are: the mean distance of their features over that of `reference` (what the grammar
+/// grows at random, at least two), clamped to 0..1. 1 where there are fewer than two.
 double diversity(const std::vector<std::vector<double>>& features, const std::vector<std::vector<double>>& reference);
 
 }  // namespace espalier

@@ -23,9 +23,9 @@ struct BreedSettings {
   double strength = 0.4;          // of mutation, from 0 (subtle) to 1 (wild)
   std::uint32_t keep = 6;         // free: the best that were rated above 0 go on unchanged, 0..population - 1
   double crossover = 0.9;         // free: share of the children that has several parents, 0..1
-  double blend = 0.8;             // free: share of the children of several that is a mixture of them (of up to three) and
+  double blend = 0.8;             // free: share of the children of several that is a mixture of up to three and
                                   // not a patchwork of two, 0..1
-  double lean = 1;                // free: share of the children that is moved the way from what was disliked to what was liked
+  double lean = 1;                // free: share of the children moved on, from what was disliked to what was liked
   double newcomers = 0;           // free: share of a generation that is drawn from the grammar, 0..1
   bool use_ratings = true;        // false: everybody is as likely to have children (GenTree's variants without ratings)
   GenesisSettings genesis = classic_genesis();  // classic; its population is the one above

@@ -9,8 +9,9 @@
 
 namespace espalier {
 
-/// Mean absolute difference of the quantiles of two derivations' draws, as seen: of those of n values, between the middles
-/// of their plateaus; of circular ones the shorter way round. Both have the same draws. 0..1; two random ones: about 1/3.
+/// Mean absolute difference of the quantiles of two derivations' draws, as seen: of those of n values, between the
+/// middles of their plateaus; of circular ones the shorter way round. Both have the same draws. 0..1; two random
+/// ones: about 1/3.
 double gene_distance(const GeneratorGraph& graph, const Derivation& a, const Derivation& b);
 
 class SimulatedUser {

@@ -15,7 +15,7 @@ struct SpeciesSettings {
   static constexpr std::uint32_t kMostSiblings = 1000, kTriesPerSibling = 60;
 
   std::uint32_t count = 20;         // 1..kMostSiblings
-  double strength = 0.3;            // how far siblings may stray, 0..1 (variation.h); without a favourite it counts nothing
+  double strength = 0.3;            // how far siblings may stray, 0..1 (variation.h); nothing without a favourite
   double least_distance = 0.01;     // of the features of any two (feature_distance), 0..1
 
   bool operator==(const SpeciesSettings&) const = default;
@@ -29,7 +29,7 @@ struct Species {
   std::vector<std::uint32_t> drawn_as;         // which of the candidates each was
   std::vector<Appraisal> appraisals;           // of each
   std::uint32_t tried = 0;                     // candidates; at most count * kTriesPerSibling
-  std::map<std::string, std::uint32_t> refused;  // candidates by the first reason why not: "triangles", "too like another"
+  std::map<std::string, std::uint32_t> refused;  // candidates by the first reason why not: "too like another"
   double nearest = 0;                          // least distance of any two siblings; 0 where there are fewer than two
 };
 
@@ -38,7 +38,8 @@ struct Species {
 Species find_species(const BreedProblem& problem, const std::optional<Derivation>& favourite,
                      const SpeciesSettings& settings);
 
-/// Why there are fewer than wanted, or what it took: "200 of 200 found among 412 candidates; 160 refused: triangles (150), ...".
+/// Why there are fewer than wanted, or what it took: "200 of 200 found among 412 candidates; 160 refused: triangles
+/// (150), ...".
 std::string summary(const Species& species, const SpeciesSettings& settings);
 
 }  // namespace espalier

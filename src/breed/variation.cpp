@@ -100,8 +100,8 @@ std::size_t heaviest(std::span<const double> weights) {
 }
 
 /// The weighted mean of one draw of several parents; parent `base` is what circular ones are measured from.
-std::uint32_t mixed(const DrawComponent& draw, std::span<const std::uint32_t> quantiles, std::span<const double> weights,
-                    std::size_t base) {
+std::uint32_t mixed(const DrawComponent& draw, std::span<const std::uint32_t> quantiles,
+                    std::span<const double> weights, std::size_t base) {
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   if (draw.shape == DrawShape::circular) {
     double step = 0;
@@ -130,7 +130,9 @@ std::uint32_t moved_by(std::uint32_t quantile, const DrawComponent& draw, std::u
   }
   if (draw.shape == DrawShape::discrete && draw.values > 1) {
     const std::int64_t n = draw.values;
-    const auto value = [&](std::uint32_t q) { return static_cast<std::int64_t>((std::uint64_t{q} * draw.values) >> 32); };
+    const auto value = [&](std::uint32_t q) {
+      return static_cast<std::int64_t>((std::uint64_t{q} * draw.values) >> 32);
+    };
     const std::int64_t step = std::llround(amount * static_cast<double>(value(to) - value(from)));
     const std::int64_t moved = std::clamp<std::int64_t>(value(quantile) + step, 0, n - 1);
     return moved == value(quantile) ? quantile : middle_of(static_cast<std::uint64_t>(moved), draw.values);
@@ -182,11 +184,12 @@ Derivation cross(const GeneratorGraph& graph, const Derivation& first, const Der
   return crossed;
 }
 
-Derivation blend(const GeneratorGraph& graph, std::span<const Derivation* const> parents, std::span<const double> weights,
-                 const Held& held) {
+Derivation blend(const GeneratorGraph& graph, std::span<const Derivation* const> parents,
+                 std::span<const double> weights, const Held& held) {
   CHECK(parents.size() >= 2 && parents.size() <= 3 && weights.size() == parents.size());
-  const std::size_t base = heaviest(weights);
-  CHECK(weights[base] > 0);
+  CHECK(weights[heaviest(weights)] > 0);
+  // Genes that are held must stand where the first parent has them.
+  const std::size_t base = held.genes.empty() ? heaviest(weights) : 0;
   Derivation child = *parents[base];
   // How many parents have a draw of the base, and where.
   std::vector<std::vector<std::uint32_t>> at(parents.size(), std::vector<std::uint32_t>(child.draws.size()));
@@ -200,9 +203,10 @@ Derivation blend(const GeneratorGraph& graph, std::span<const Derivation* const>
     }
   }
   const std::vector<const DrawComponent*> components = components_of(graph, child);
+  const std::vector<std::uint8_t> is_held = held_draws(graph, child, held);
   std::vector<std::uint32_t> quantiles(parents.size());
   for (std::size_t draw = 0; draw < child.draws.size(); ++draw) {
-    if (owners[draw] < parents.size()) continue;
+    if (owners[draw] < parents.size() || (base == 0 && is_held[draw])) continue;
     for (std::size_t p = 0; p < parents.size(); ++p) quantiles[p] = parents[p]->draws[at[p][draw]];
     child.draws[draw] = mixed(*components[draw], quantiles, weights, base);
   }
@@ -210,8 +214,8 @@ Derivation blend(const GeneratorGraph& graph, std::span<const Derivation* const>
   return child;
 }
 
-void lean(const GeneratorGraph& graph, const Derivation& toward, const Derivation& away, double amount, const Held& held,
-          Derivation& child) {
+void lean(const GeneratorGraph& graph, const Derivation& toward, const Derivation& away, double amount,
+          const Held& held, Derivation& child) {
   constexpr std::uint32_t kNowhere = 0xffffffff;
   std::vector<std::uint32_t> at(child.draws.size(), kNowhere);
   for (const AlignedGene& gene : align(graph, child, away)) {

@@ -123,7 +123,8 @@ double Viability::fill(const Model& model, const Vec3& corner, float cell, std::
     if (!is_shown(part, mesh.box) || mesh.volume <= 0) continue;
     const TurnedBox box(mesh.box, part.model_from_mesh);
     const double top = mesh.cone ? std::max(part.top, 0.0f) : 1;
-    const double volume = mesh.volume * std::abs(glm::determinant(part.model_from_mesh.basis)) * (1 + top + top * top) / 3;
+    const double scale = std::abs(glm::determinant(part.model_from_mesh.basis));
+    const double volume = scale * mesh.volume * (1 + top + top * top) / 3;
     std::uint32_t n[3];
     for (int i = 0; i < 3; ++i) n[i] = std::clamp(static_cast<std::uint32_t>(std::ceil(box.edge(i) / cell)), 1u, 48u);
     if (n[0] * n[1] * n[2] > left) n[0] = n[1] = n[2] = 1;

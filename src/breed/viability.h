@@ -1,7 +1,7 @@
 #pragma once
-// Viability: whether a model is worth showing to a person at all. It says no, and why, of models that are truncated, grow
-// into the ground, are so dense that their parts lie inside each other, are empty, or break a hard limit. (Typical
-// failures of random trees: Congdon and Mazza 2003.)
+// Viability: whether a model is worth showing to a person at all. It says no, and why, of models that are truncated,
+// grow into the ground, are so dense that their parts lie inside each other, are empty, or break a hard limit.
+// (Typical failures of random trees: Congdon and Mazza 2003.)
 
 #include <string>
 #include <vector>
@@ -43,9 +43,9 @@ class Viability {
   /// Throws Error for bad settings.
   Viability(const MeshTable& meshes, const ViabilitySettings& settings);
 
-  /// `model`: of the derivation, with details. Boxes stand for parts. Crowding: a grid of 24 cells along the longest side
-  /// of the model; what a cell's parts have more volume than the cell must lie inside each other. A lower bound of the
-  /// overlap, in one pass.
+  /// `model`: of the derivation, with details. Boxes stand for parts. Crowding: a grid of 24 cells along the longest
+  /// side of the model; what a cell's parts have more volume than the cell must lie inside each other. A lower bound
+  /// of the overlap, in one pass.
   ViabilityReport judge(const Derivation& derivation, const Model& model, Scratch& scratch) const;
 
  private:

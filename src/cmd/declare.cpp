@@ -67,7 +67,7 @@ void declare_sweep(CLI::App& app, SweepOptions& o, std::function<int()>& chosen)
   declare_contest(verb, o);
   verb->add_option("--vary", o.varied, "A setting and its values: --vary search.population=10,50,200 (repeatable)")
       ->expected(1)->take_all()->required();
-  verb->add_option("--engine", o.engine, "How to search: ga, smc, sosmc, rjmcmc, hybrid, guided or genesis (the scene's)");
+  verb->add_option("--engine", o.engine, "ga, smc, sosmc, rjmcmc, hybrid, guided or genesis (the scene's)");
   verb->add_option("--generations", o.generations, "Steps for each search (replaces the scene's budget)");
   verb->add_option("--random", o.random, "Only so many of the combinations, drawn by the first seed")
       ->check(CLI::Range(1, 1000));

@@ -246,12 +246,14 @@ void declare_explain(CLI::App& app, CommandLine& line) {
 void declare_breed(CLI::App& app, CommandLine& line) {
   CLI::App* verb = app.add_subcommand("breed", "Make many distinct siblings of a model, or kinds of a grammar");
   BreedOptions& o = line.breed;
-  verb->add_option("--from", o.from, "Derivation (or model, picture, run's folder), grammar (.esp) or scene (.toml)")->required();
+  verb->add_option("--from", o.from, "Derivation (or model, picture, run's folder), grammar (.esp) or scene (.toml)")
+      ->required();
   verb->add_option("-n,--count", o.count, "How many, 1 to 1000 (20)")->check(CLI::Range(1, 1000));
   verb->add_option("--max-triangles", o.most_triangles, "Of each model")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
   verb->add_option("--strength", o.strength, "How far siblings stray, 0 to 1 (0.3)")->check(CLI::Range(0.0, 1.0));
-  verb->add_option("--least-distance", o.least_distance, "Of the features of any two, 0 to 1 (0.01)")->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--least-distance", o.least_distance, "Of the features of any two, 0 to 1 (0.01)")
+      ->check(CLI::Range(0.0, 1.0));
   verb->add_option("--seed", o.seed, "Seed (1)")->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
   verb->add_option("--format", o.format, "glb, obj, ply or stl (glb)");
   verb->add_option("--grammar", o.grammar, "Of the derivation (the copy in its run's folder)");

@@ -111,7 +111,8 @@ void check_sweep(const std::vector<VariedSetting>& varied, const Contest& contes
     const std::string engine = one.key.substr(7, one.key.find('.', 7) - 7);
     const bool used = std::any_of(contest.variants.begin(), contest.variants.end(), [&](const ContestVariant& variant) {
       const EngineKind kind = variant.scene.search.engine;
-      return name_of(kind) == engine || (kind == EngineKind::hybrid && (engine == "sosmc" || engine == "ga" || engine == "rjmcmc"));
+      const bool of_hybrid = engine == "sosmc" || engine == "ga" || engine == "rjmcmc";
+      return name_of(kind) == engine || (kind == EngineKind::hybrid && of_hybrid);
     });
     if (!used) {
       throw Error(fmt::format("--vary {}: changes nothing, the engine is {}; choose it with --engine {}", one.key,

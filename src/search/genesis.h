@@ -5,8 +5,8 @@
 // start rule alone.
 //
 // Cost per step: one evaluation for each string that is not as its parent was, the first: population. A child that the
-// scorer does not accept is replaced by its parent. Where `idle` generations brought nothing to score (Genesis would end
-// there), a new population begins, with the best of the last one if there is elitism.
+// scorer does not accept is replaced by its parent. Where `idle` generations brought nothing to score (Genesis would
+// end there), a new population begins, with the best of the last one if there is elitism.
 
 #include <vector>
 

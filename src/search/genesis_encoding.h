@@ -18,8 +18,8 @@ namespace espalier {
 
 using BitString = std::vector<std::uint8_t>;  // 0 or 1 each
 
-/// Why the genome of the graph is more than the draws of its start rule, in words that name the rule and the slot or the
-/// choice; empty where it is not. A start rule without draws has no genome at all: that is said too.
+/// Why the genome of the graph is more than the draws of its start rule, in words that name the rule and the slot or
+/// the choice; empty where it is not. A start rule without draws has no genome at all: that is said too.
 std::string why_not_start_draws(const GeneratorGraph& graph);
 
 class GenesisEncoding {
@@ -40,8 +40,8 @@ class GenesisEncoding {
   BitString encode(const Derivation& derivation) const;
   /// A derivation with this detail seed.
   Derivation decode(const BitString& string, std::uint64_t detail_seed = 0) const;
-  /// The child that a string is, of parents that strings were made of: genes that are as in a parent (the first, else the
-  /// second) have that parent's very quantiles, which may lie between those that strings know.
+  /// The child that a string is, of parents that strings were made of: genes that are as in a parent (the first, else
+  /// the second) have that parent's very quantiles, which may lie between those that strings know.
   Derivation inherit(const BitString& string, const Derivation& first, const Derivation& second) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// Settings of Genesis, the genetic algorithm over bit strings (Grefenstette 1990) that GenTree was bred with (Congdon and
-// Mazza 2003).
+// Settings of Genesis, the genetic algorithm over bit strings (Grefenstette 1990) that GenTree was bred with (Congdon
+// and Mazza 2003).
 
 #include <cstdint>
 #include <string>

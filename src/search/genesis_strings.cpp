@@ -105,7 +105,8 @@ std::vector<GenesisChild> next_strings(std::span<const BitString> strings, std::
   const auto replaced = static_cast<std::uint32_t>(std::lround(settings.gap * count));
   const std::uint32_t made = std::clamp(replaced, count > n ? count - n : 1, count);
   std::vector<GenesisChild> children;
-  for (const std::uint32_t parent : sample_universally(expected_places(values, worst_of_window, settings), made, random)) {
+  const std::vector<double> expected = expected_places(values, worst_of_window, settings);
+  for (const std::uint32_t parent : sample_universally(expected, made, random)) {
     children.push_back({strings[parent], parent, parent, false});
   }
   std::vector<std::uint32_t> old(n);

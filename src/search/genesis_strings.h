@@ -13,8 +13,8 @@
 namespace espalier {
 
 /// How many places each of `values` (finite, higher is better) expects among as many: they sum to their number. All
-/// equal: 1 each. `worst_of_window`: the scaling window's least value, at most the least of these; ranking does not look
-/// at it, and gives equal values the mean of their ranks.
+/// equal: 1 each. `worst_of_window`: the scaling window's least value, at most the least of these; ranking does not
+/// look at it, and gives equal values the mean of their ranks.
 std::vector<double> expected_places(std::span<const double> values, double worst_of_window,
                                     const GenesisSettings& settings);
 
@@ -39,8 +39,8 @@ struct GenesisChild {
 };
 
 /// The next generation: selection, mutation, crossover, and the elite put back. Exactly `count` >= 1 children. With
-/// elitism the string of the highest value (of equals the first) is always among them. The places behind the share `gap`
-/// go to strings of the old generation, drawn without replacement.
+/// elitism the string of the highest value (of equals the first) is always among them. The places behind the share
+/// `gap` go to strings of the old generation, drawn without replacement.
 std::vector<GenesisChild> next_strings(std::span<const BitString> strings, std::span<const double> values,
                                        std::uint32_t count, double worst_of_window, const GenesisSettings& settings,
                                        std::span<const std::uint8_t> held, RandomStream& random);

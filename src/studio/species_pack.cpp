@@ -69,7 +69,10 @@ std::string command_line(const SpeciesRequest& r, const std::string& from, const
 class Pack {
  public:
   Pack(const SpeciesRequest& request, MeshSource& source, Executor& executor)
-      : request_(request), stock_(read_stock(request)), meshes_(load_meshes(stock_.grammar, source)), executor_(executor) {
+      : request_(request),
+        stock_(read_stock(request)),
+        meshes_(load_meshes(stock_.grammar, source)),
+        executor_(executor) {
     inputs_.add_grammar(stock_.grammar);
     if (stock_.favourite) favourite_name_ = inputs_.add_start(find_derivation(request.from)).name;
     find();

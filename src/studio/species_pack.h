@@ -1,6 +1,6 @@
 #pragma once
-// SpeciesPack: siblings of a favourite as a folder of model files with an index and a contact sheet. For the command line
-// and for the breeding room.
+// SpeciesPack: siblings of a favourite as a folder of model files with an index and a contact sheet. For the command
+// line and for the breeding room.
 
 #include <array>
 #include <cstdint>
@@ -37,9 +37,9 @@ struct SpeciesReport {
 
 inline constexpr const char* kSpeciesMarker = "breed.toml";
 
-/// Writes NNN.FORMAT and NNN.derivation.json for each, species.json, species.png, breed.toml and inputs/ into a new folder
-/// `out` (see RunFolder), also where fewer were found than asked for; nothing where none was. Of a scene the hard limits
-/// count too, not its targets. Throws Error.
+/// Writes NNN.FORMAT and NNN.derivation.json for each, species.json, species.png, breed.toml and inputs/ into a new
+/// folder `out` (see RunFolder), also where fewer were found than asked for; nothing where none was. Of a scene the
+/// hard limits count too, not its targets. Throws Error.
 SpeciesReport write_species(const SpeciesRequest& request, const std::string& out, MeshSource& source,
                             Executor& executor);
 

@@ -1,7 +1,7 @@
 #pragma once
 // A shipped grammar, ready to be bred.
 
-#include <map>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -22,13 +22,15 @@ class NoFiles final : public MeshSource {
 struct BreedFixture {
   BreedProblem problem;
 
-  explicit BreedFixture(const std::string& grammar, int threads = 1, BatchScorer* targets = nullptr)
+  explicit BreedFixture(const std::string& grammar, int threads = 1,
+                        const std::function<void(ModelAppraiser::Settings&)>& change = {}, BatchScorer* targets = nullptr)
       : executor_(make_thread_executor(threads)) {
     problem.graph = compile_shipped(grammar);
     NoFiles files;
     meshes_ = MeshTable(*problem.graph, "", files);
     ModelAppraiser::Settings settings;
     settings.viability = usual_viability(*problem.graph, meshes_);
+    if (change) change(settings);
     appraiser_ = std::make_unique<ModelAppraiser>(problem.graph, meshes_, settings, targets, *executor_);
     problem.appraiser = appraiser_.get();
     problem.seed = 5;

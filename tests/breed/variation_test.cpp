@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "base/random.h"
 #include "breed/alignment.h"
 #include "breed/newcomer.h"
 #include "derivation/encode.h"
@@ -166,8 +167,11 @@ TEST(Variation, LockedSubtreesStayInTreesOfGenes) {
     GenePath path;
     locate(*graph, a, gene, path);
     const SubtreeSlice before = subtree_at(*graph, a, path.gene);
+    const Derivation* two[] = {&a, &b};
+    const double weights[] = {0.3, 0.7};
     for (const Derivation& child : {mutate(*graph, a, held, 1, random), cross(*graph, a, b, held, random),
-                                    make_sibling(*graph, a, held, 1, random), draw_newcomer(*graph, a, held, random)}) {
+                                    blend(*graph, two, weights, held), make_sibling(*graph, a, held, 1, random),
+                                    draw_newcomer(*graph, a, held, random)}) {
       const auto found = find_gene(*graph, child, held.genes[0].path);
       ASSERT_TRUE(found);
       locate(*graph, child, *found, path);

@@ -17,7 +17,8 @@
 namespace espalier::testing {
 
 /// Runs FOLDER/scene.toml into FOLDER/out.
-/// Those that the grammar of the fixtures suits. Genesis wants genomes that are one gene: tests/run/genesis_run_test.cpp.
+/// Those that the grammar of the fixtures suits. Genesis wants genomes that are one gene:
+/// tests/run/genesis_run_test.cpp.
 inline constexpr auto kGrowingEngines = [] {
   std::array<std::string_view, kEngineNames.size() - 1> names;
   std::copy_if(kEngineNames.begin(), kEngineNames.end(), names.begin(), [](auto name) { return name != "genesis"; });
