@@ -55,10 +55,10 @@ BredModelPtr BredModelMaker::make(const Derivation& derivation) {
   facts.why = report.reasons;
   facts.words = counted(static_cast<std::size_t>(facts.parts), "part");
   made->features = features_.of(graph, derivation, model_, report.measures);
-  if (scored_ || setup_->objective.size() > 0) {
+  if (setup_->objective.size() > 0) {
     const Explanation explanation = explain(derivation);
-    if (std::isfinite(explanation.score)) facts.score = explanation.score;
-    if (!explanation.words.empty()) facts.words = explanation.words;
+    if (scored_ && std::isfinite(explanation.score)) facts.score = explanation.score;
+    if (scored_ && !explanation.words.empty()) facts.words = explanation.words;
     if (!explanation.rejected.empty()) facts.viable = false, facts.why.push_back(explanation.rejected);
     for (const Explanation& target : explanation.targets) {
       for (const Term& term : target.terms) {

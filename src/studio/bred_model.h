@@ -30,7 +30,7 @@ class BredModelMaker {
  public:
   static constexpr std::size_t kMostParts = 100'000;  // of an individual
 
-  /// `setup`: of the project's state; `scored`: whether the scene asks for anything.
+  /// `setup`: of the project's state; `scored`: whether the scene has targets; limits count in any case.
   BredModelMaker(std::shared_ptr<const Setup> setup, bool scored, const ViabilitySettings& viability);
   BredModelPtr make(const Derivation& derivation);
 

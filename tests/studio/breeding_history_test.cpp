@@ -90,6 +90,25 @@ TEST_F(BreedingTest, HistoryBranchesAndReplaysToTheBit) {
   for (const std::int64_t id : page.ids()) EXPECT_EQ(copy->models[id].substr(56), page.models[id].substr(56));
 }
 
+TEST_F(BreedingTest, AnyGrammarIsBredWithAnyTargets) {
+  for (const char* sample :
+       {"city-filling", "guided-bonsai", "guided-mondrian", "tree-sketch", "facade", "meadow", "snake"}) {
+    const auto owned = project(sample);
+    BreedingPage& page = *owned;
+    ASSERT_EQ(begin(page, {{"population", 9}}), "") << sample;
+    ASSERT_EQ(page.ask("breed"), "") << sample;
+    ASSERT_TRUE(page.wait_for_models());
+    ASSERT_EQ(page.ids().size(), 9u) << sample;
+    const std::string scene = page.seen["document"]["scene"].dump();
+    const bool targets = scene.find("curve") != std::string::npos || scene.find("mesh") != std::string::npos ||
+                         scene.find("silhouette") != std::string::npos;
+    for (const std::int64_t id : page.ids()) {
+      EXPECT_TRUE(page.bred[id]["viable"]) << sample << page.bred[id];
+      EXPECT_EQ(page.bred[id].contains("score"), targets) << sample;
+    }
+  }
+}
+
 TEST_F(BreedingTest, ATasteModelChoosesAndSaysWhy) {
   const auto owned = project("gentree-natural");
   BreedingPage& page = *owned;

@@ -2,7 +2,8 @@
 // a machine that does nothing else). Prints median and 95th percentile of several times each, in milliseconds.
 //   stroke         pointer-up on a curve, to the first draw call with a model made for it submitted; sample Guided tree
 //   first paint    from opening the link to the first frame with the model of a project that was there
-//   long tasks     of the page while a search streams models, more than 50 ms each
+//   long tasks     of the page while a search streams models, more than 50 ms each; without a graphics card these are the browser
+//                  drawing by processor, not scripts of ours
 //   stop           from the click to the search having ended
 //   reach          from the last key of an edit to the cloud of the rule under the cursor
 //   frame          script of a frame while the camera turns about a city of tens of thousands of parts, and its draw calls

@@ -155,10 +155,10 @@ describe("the grammar", () => {
       data.items.add(new File(["v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"], "Old Gate.obj"));
       for (const kind of ["dragover", "drop"]) pane.querySelector(".grammar-editor")!.dispatchEvent(new DragEvent(kind, { dataTransfer: data, bubbles: true, cancelable: true, composed: true }));
     });
-    await page.getByText("Old-Gate.obj is in the project; the grammar calls it old_gate.").waitFor();
+    await page.getByText("Old-Gate.obj: 12 triangles, 1 × 1 × 1 m. The grammar calls it old_gate.").first().waitFor();
     expect(await grammarOf(page)).toContain('mesh old_gate = "Old-Gate.obj"\nattr tufts');
     await page.getByRole("tab", { name: /Files/ }).click();
-    expect(await page.locator(".files tr").innerText()).toMatch(/Old-Gate\.obj\s+32 B\s+12 triangles\s+1 × 1 × 1 m/);
+    expect(await page.locator(".files tr").innerText()).toMatch(/Old-Gate\.obj\s+32 B\s+12 triangles, 1 × 1 × 1 m/);
   });
 });
 

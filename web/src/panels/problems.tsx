@@ -94,7 +94,7 @@ function LogLines() {
         <li key={line.number} class={line.level} ref={i === lines.length - 1 ? end : null}>
           <time dateTime={line.at.toISOString()}>{line.at.toTimeString().slice(0, 8)}</time>
           <span>{line.level !== "info" && <b>{line.level === "error" ? "Error: " : "Warning: "}</b>}{line.text}</span>
-          {line.picture !== undefined && <img src={line.picture} alt="" width={64} height={48} />}
+          {line.picture !== undefined && <img src={line.picture} alt="" width={64} height={48} onError={(event) => (event.currentTarget.hidden = true)} />}
         </li>
       ))}
     </ol>

@@ -90,7 +90,7 @@ function Notices() {
   const { state } = useStudio();
   return (
     <div class="notices" role="status" aria-live="polite">
-      {state.notices.value.map((notice) => <p key={notice.number} class={notice.bad ? "notice bad" : "notice"}>{notice.picture !== undefined && <img src={notice.picture} alt="" />}{notice.text}</p>)}
+      {state.notices.value.map((notice) => <p key={notice.number} class={notice.bad ? "notice bad" : "notice"}>{notice.picture !== undefined && <img src={notice.picture} alt="" onError={(event) => (event.currentTarget.hidden = true)} />}{notice.text}</p>)}
     </div>
   );
 }
