@@ -76,7 +76,7 @@ std::string outcome(const std::function<std::string()>& work) {
 
 std::string read_all(int in) {
   std::string bytes;
-  char block[1 << 16];
+  char block[1 << 14];  // whoever calls may have little stack
   for (;;) {
     const ssize_t n = ::read(in, block, sizeof block);
     if (n < 0 && errno == EINTR) continue;
@@ -97,7 +97,10 @@ std::string run_in_child(const std::function<std::string()>& work, const ChildLi
     const std::lock_guard lock(forking);
     if (::pipe2(ends, O_CLOEXEC) != 0) fail("cannot make a pipe", errno);
     child = ::fork();
-    if (child == 0) be_child(ends[1], work, limits, used);
+    if (child == 0) {
+      ::close(ends[0]);  // so that writing ends where nobody reads any more
+      be_child(ends[1], work, limits, used);
+    }
     const int code = errno;
     ::close(ends[1]);
     if (child < 0) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <future>
 #include <utility>
 
 #include <fmt/format.h>
@@ -255,9 +254,7 @@ HttpResponse Studio::answer_project(std::int64_t project, const HttpRequest& req
   }
   if (rest.starts_with(kBreeding)) {
     const Turn turn(busy_);
-    // The server's own threads have too little stack for grammars and what their meshes are read with.
-    const auto work = [&] { return answer_breeding(store_, project, request, rest.substr(kBreeding.size())); };
-    const BreedingAnswer answer = std::async(std::launch::async, work).get();
+    const BreedingAnswer answer = answer_breeding(store_, project, request, rest.substr(kBreeding.size()));
     if (answer.changed) session(project)->breedings_changed();
     return answer.response;
   }

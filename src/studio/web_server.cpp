@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <future>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -146,7 +147,8 @@ class WebServer::Implementation {
       if (fault.status != 200) return send(connection, fault);
     }
     try {
-      return send(connection, app_.answer(asked));
+      // civetweb's threads have too little stack for grammars, and for what meshes are read with.
+      return send(connection, std::async(std::launch::async, [&] { return app_.answer(asked); }).get());
     } catch (const Error& error) {
       return send(connection, {400, "text/plain; charset=utf-8", std::string(error.what()) + "\n"});
     } catch (const std::exception&) {
@@ -184,7 +186,7 @@ class WebServer::Implementation {
       return {413, "text/plain", fmt::format("at most {} bytes\n", settings_.most_body_bytes)};
     }
     // Memory is taken as bytes come, not as they are announced.
-    std::array<char, 65536> chunk;
+    std::array<char, 16384> chunk;  // the stack is small
     while (body.size() < length) {
       const int got = mg_read(connection, chunk.data(), std::min(chunk.size(), length - body.size()));
       if (got <= 0) return {400, "text/plain", "the body was cut short\n"};
