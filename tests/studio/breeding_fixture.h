@@ -5,27 +5,15 @@
 #include <memory>
 #include <string>
 
-#include <gmock/gmock.h>
-
-#include "run/temporary_folder.h"
 #include "studio/breeding_page.h"
-#include "studio/studio.h"
-#include "studio/web_guard.h"
+#include "studio/studio_fixture.h"
 
 namespace espalier::studio {
 
 using nlohmann::json;
 
-class BreedingTest : public testing::Test {
+class BreedingTest : public StudioFixture {
  protected:
-  BreedingTest() { start(); }
-  void start() {
-    server_.reset();
-    studio_.reset();
-    studio_ = std::make_unique<Studio>(folder_.file("studio.sqlite"));
-    server_ =
-        std::make_unique<WebServer>(WebServerSettings{.token = token_, .page_folder = folder_.file("page")}, *studio_);
-  }
   std::unique_ptr<BreedingPage> page() { return std::make_unique<BreedingPage>(server_->port(), token_); }
   /// A page with a project of that sample.
   std::unique_ptr<BreedingPage> project(const std::string& sample) {
@@ -39,14 +27,6 @@ class BreedingTest : public testing::Test {
     page.wait_for_models();
     return answer;
   }
-  Answer http(const std::string& request, const std::string& body = "") {
-    return ask(server_->port(), request, "X-Espalier-Token: " + token_ + "\r\n", body);
-  }
-
-  TemporaryFolder folder_;
-  std::string token_ = make_token();
-  std::unique_ptr<Studio> studio_;
-  std::unique_ptr<WebServer> server_;
 };
 
 inline json rating(std::int64_t individual, double rating) {

@@ -26,13 +26,13 @@ TEST_F(BreedingTest, AFirstScreenIsShownRatedAndBred) {
     EXPECT_GT(page.bred[id]["triangles"], 0);
     const std::string& model = page.models[id];
     ASSERT_EQ(model.substr(0, 4), "ESPI");
-    EXPECT_EQ(word_in(model, 8), page.session()["id"]);
-    EXPECT_EQ(word_in(model, 16), page.individual(id)["version"]);
+    EXPECT_EQ(word_at(model, 8), page.session()["id"]);
+    EXPECT_EQ(word_at(model, 16), page.individual(id)["version"]);
     const std::string inner = model.substr(24);
     EXPECT_EQ(inner.substr(0, 4), "ESPM");
-    EXPECT_EQ(word_in(inner, 28), word_in(page.meshes, 8));
-    EXPECT_EQ(inner.size(), 32 + 64 * word_in(inner, 12) + 32 * word_in(inner, 16) + 48 * word_in(inner, 20) +
-                                8 * word_in(inner, 24));
+    EXPECT_EQ(word_at(inner, 28), word_at(page.meshes, 8));
+    EXPECT_EQ(inner.size(), 32 + 64 * word_at(inner, 12) + 32 * word_at(inner, 16) + 48 * word_at(inner, 20) +
+                                8 * word_at(inner, 24));
     different.insert(inner);
   }
   EXPECT_EQ(different.size(), 12u);

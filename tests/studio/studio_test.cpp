@@ -1,22 +1,17 @@
 // The studio over a real socket, as a page sees it.
-#include "base/base64.h"
-#include "studio/studio.h"
-
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <map>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "base/base64.h"
 #include "base/error.h"
 #include "io/file.h"
-#include "run/temporary_folder.h"
+#include "studio/page.h"
 #include "studio/project_file.h"
 #include "studio/scene_json.h"
-#include "studio/web_client.h"
-#include "studio/web_guard.h"
+#include "studio/studio_fixture.h"
 
 namespace espalier::studio {
 namespace {
@@ -26,34 +21,11 @@ using testing::HasSubstr;
 
 constexpr const char* kCurves = R"({"curve": [{"points": [[0,0,0],[0,1,0],[1,1,1],[2,2,1]]}]})";
 
-/// What one page has seen: the newest message of each kind.
-class Page {
+/// A page that looks at models.
+class ModelPage final : public Page {
  public:
-  Page(std::uint16_t port, const std::string& token) : client_(port, token) { wait_for("projects"); }
+  using Page::Page;
 
-  /// Sends a request and reads on to its answer, "" or why it failed.
-  std::string ask(const std::string& kind, json request = json::object()) {
-    request["kind"] = kind;
-    request["request"] = ++number_;
-    client_.send_frame(request.dump());
-    for (;;) {
-      if (!read()) return "the connection ended";
-      if (last_["kind"] != "done" && last_["kind"] != "failed") continue;
-      if (last_.value("request", 0) == number_) return last_.value("text", "");
-    }
-  }
-  /// Reads until a message of that kind passes; false where none comes.
-  template <class Passes>
-  bool wait_for(const std::string& kind, Passes passes) {
-    if (seen.count(kind) != 0 && passes(seen[kind])) return true;
-    while (read()) {
-      if (last_.is_object() && last_["kind"] == kind && passes(last_)) return true;
-    }
-    return false;
-  }
-  bool wait_for(const std::string& kind) {
-    return wait_for(kind, [](const json&) { return true; });
-  }
   /// A model made for the document as it is now, or later.
   bool wait_for_model() {
     const std::int64_t revision = seen["document"]["revision"];
@@ -65,62 +37,25 @@ class Page {
     scene[key] = json::parse(value);
     return scene;
   }
-  WebSocketClient& client() { return client_; }
 
-  std::map<std::string, json> seen;
   std::string model, meshes, cloud;  // binary messages
   int models = 0;
 
  private:
-  bool read() {
-    const auto message = client_.read(60'000);
-    if (!message) return false;
-    last_ = nullptr;
-    if (message->binary) {
-      const std::string letters = message->bytes.substr(0, 4);
-      if (letters == "ESPM") model = message->bytes, ++models;
-      if (letters == "ESPG") meshes = message->bytes;
-      if (letters == "ESPC") cloud = message->bytes;
-      return true;
-    }
-    last_ = json::parse(message->bytes);
-    seen[last_["kind"].get<std::string>()] = last_;
-    return true;
+  void took(const std::string& letters, const std::string& bytes) override {
+    if (letters == "ESPM") model = bytes, ++models;
+    if (letters == "ESPG") meshes = bytes;
+    if (letters == "ESPC") cloud = bytes;
   }
-
-  WebSocketClient client_;
-  json last_;
-  int number_ = 0;
 };
 
-std::uint32_t word_at(const std::string& bytes, std::size_t offset) {
-  std::uint32_t value = 0;
-  if (offset + 4 <= bytes.size()) std::memcpy(&value, bytes.data() + offset, 4);
-  return value;
-}
-
-class StudioTest : public testing::Test {
+class StudioTest : public StudioFixture {
  protected:
-  StudioTest() { start(); }
-  void start() {
-    server_.reset();
-    studio_.reset();
-    studio_ = std::make_unique<Studio>(folder_.file("studio.sqlite"));
-    server_ = std::make_unique<WebServer>(WebServerSettings{.token = token_, .page_folder = folder_.file("page")}, *studio_);
-  }
-  Page page() { return Page(server_->port(), token_); }
-  Answer http(const std::string& request, const std::string& body = "") {
-    return ask(server_->port(), request, "X-Espalier-Token: " + token_ + "\r\n", body);
-  }
-
-  TemporaryFolder folder_;
-  std::string token_ = make_token();
-  std::unique_ptr<Studio> studio_;
-  std::unique_ptr<WebServer> server_;
+  ModelPage page() { return ModelPage(server_->port(), token_); }
 };
 
 TEST_F(StudioTest, ANewProjectIsCheckedAndShown) {
-  Page page = this->page();
+  ModelPage page = this->page();
   EXPECT_GT(page.seen["projects"]["samples"].size(), 20u);
   EXPECT_EQ(page.ask("edit", page.edit("x")), "no project is open");
   EXPECT_EQ(page.ask("create_project", {{"name", "Plant"}}), "");
@@ -141,7 +76,7 @@ TEST_F(StudioTest, ANewProjectIsCheckedAndShown) {
 }
 
 TEST_F(StudioTest, EverySampleIsReadAndShowsAModel) {
-  Page page = this->page();
+  ModelPage page = this->page();
   const json samples = page.seen["projects"]["samples"];
   for (const json& sample : samples) {
     const std::string name = sample["name"];
@@ -161,7 +96,7 @@ TEST_F(StudioTest, EverySampleIsReadAndShowsAModel) {
 
 // Projects count their mesh tables each for itself, so equal numbers say nothing.
 TEST_F(StudioTest, AnotherProjectBringsItsOwnMeshes) {
-  Page page = this->page();
+  ModelPage page = this->page();
   ASSERT_EQ(page.ask("create_project", {{"name", "a"}, {"sample", "guided-tree"}}), "");
   ASSERT_TRUE(page.wait_for_model());
   const json rules = page.seen["shown"]["rules"];
@@ -173,7 +108,7 @@ TEST_F(StudioTest, AnotherProjectBringsItsOwnMeshes) {
 }
 
 TEST_F(StudioTest, ErrorsOfTheGrammarHavePlacesAsThePageCounts) {
-  Page page = this->page();
+  ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}});
   page.wait_for_model();
   const std::string text = "grammar a 1\n# \xf0\x9f\x8c\xb2 \xc3\xa4\nstart A\nrule A { spawn B }\n";
@@ -192,7 +127,7 @@ TEST_F(StudioTest, ErrorsOfTheGrammarHavePlacesAsThePageCounts) {
 }
 
 TEST_F(StudioTest, ACurveIsFollowedAndTheSearchStopsAndGoesOn) {
-  Page page = this->page();
+  ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}});
   page.wait_for_model();
   EXPECT_EQ(page.ask("edit", {{"label", "Draw"}, {"scene", page.scene_with("curves", kCurves)}, {"search", true}}), "");
@@ -213,7 +148,7 @@ TEST_F(StudioTest, ACurveIsFollowedAndTheSearchStopsAndGoesOn) {
 }
 
 TEST_F(StudioTest, ASearchThatAnEditBeginsTakesTheTimeOfTheScene) {
-  Page page = this->page();
+  ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}});
   page.wait_for_model();
   const auto stands = [](const json& state) { return !state["running"]; };
@@ -233,7 +168,7 @@ TEST_F(StudioTest, ASearchThatAnEditBeginsTakesTheTimeOfTheScene) {
 }
 
 TEST_F(StudioTest, AttributesSayTheirLabelsAndSteps) {
-  Page page = this->page();
+  ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}});
   page.ask("edit", page.edit("grammar a 1\n\n# How many there are.\nattr n in 1..9 by 2 = 3 \"Tree/Forks\"\n"
                              "attr bend in 0deg..90deg by 5deg = 30deg\nstart A\nrule A { turn x bend  move y n  emit box }\n"));
@@ -251,7 +186,7 @@ TEST_F(StudioTest, AttributesSayTheirLabelsAndSteps) {
 }
 
 TEST_F(StudioTest, FilesAreCalledAsTheProjectCallsThem) {
-  Page page = this->page();
+  ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}});
   page.wait_for_model();
   // The rule that nobody asks for is a warning of the log.
@@ -267,7 +202,7 @@ TEST_F(StudioTest, FilesAreCalledAsTheProjectCallsThem) {
 }
 
 TEST_F(StudioTest, UndoAndRedoTakeBackScenesDrawsAndLocks) {
-  Page page = this->page();
+  ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}});
   page.wait_for_model();
   const json number = page.seen["shown"]["model"];
@@ -305,7 +240,7 @@ TEST_F(StudioTest, UndoAndRedoTakeBackScenesDrawsAndLocks) {
 }
 
 TEST_F(StudioTest, ALockedGeneStaysWhileTheRestIsSearched) {
-  Page page = this->page();
+  ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}});
   page.wait_for_model();
   page.ask("edit", {{"label", "Draw"}, {"scene", page.scene_with("curves", kCurves)}, {"search", true}});
@@ -328,10 +263,10 @@ TEST_F(StudioTest, ALockedGeneStaysWhileTheRestIsSearched) {
 }
 
 TEST_F(StudioTest, TwoTabsSeeTheSame) {
-  Page one = page();
+  ModelPage one = page();
   one.ask("create_project", {{"name", "a"}});
   one.wait_for_model();
-  Page two = page();
+  ModelPage two = page();
   ASSERT_EQ(two.ask("open_project", {{"project", one.seen["document"]["project"]["id"]}}), "");
   ASSERT_TRUE(two.wait_for("shown"));
   EXPECT_EQ(two.seen["shown"], one.seen["shown"]);
@@ -347,7 +282,7 @@ TEST_F(StudioTest, TwoTabsSeeTheSame) {
 }
 
 TEST_F(StudioTest, HostileGrammarsStallNothing) {
-  Page hostile = page();
+  ModelPage hostile = page();
   hostile.ask("create_project", {{"name", "hostile"}});
   hostile.wait_for_model();
   const std::vector<std::string> texts = {
@@ -366,7 +301,7 @@ TEST_F(StudioTest, HostileGrammarsStallNothing) {
   scene["search"] = {{"engine", "ga"}};
   hostile.ask("edit", {{"label", "a"}, {"grammar", texts[0]}, {"scene", scene}, {"search", true}});
   // Meanwhile another project works, and this one listens.
-  Page other = page();
+  ModelPage other = page();
   EXPECT_EQ(other.ask("create_project", {{"name", "other"}}), "");
   EXPECT_TRUE(other.wait_for_model());
   EXPECT_EQ(hostile.ask("stop_search"), "");
@@ -376,7 +311,7 @@ TEST_F(StudioTest, HostileGrammarsStallNothing) {
 }
 
 TEST_F(StudioTest, BadRequestsFailAndChangeNothing) {
-  Page page = this->page();
+  ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}});
   page.wait_for_model();
   const json before = page.seen["document"];
@@ -393,7 +328,7 @@ TEST_F(StudioTest, BadRequestsFailAndChangeNothing) {
 }
 
 TEST_F(StudioTest, TheScenesReaderJudgesTheScene) {
-  Page page = this->page();
+  ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}});
   const auto problem_of = [&](const std::string& key, const std::string& value) {
     page.ask("edit", {{"label", "a"}, {"scene", page.scene_with(key, value)}});
@@ -411,7 +346,7 @@ TEST_F(StudioTest, TheScenesReaderJudgesTheScene) {
 }
 
 TEST_F(StudioTest, FilesComeInAndAreFilled) {
-  Page page = this->page();
+  ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}});
   page.wait_for_model();
   const std::string base = "/projects/" + page.seen["document"]["project"]["id"].dump() + "/";
@@ -444,7 +379,7 @@ TEST_F(StudioTest, FilesComeInAndAreFilled) {
 }
 
 TEST_F(StudioTest, ExportsAreRunAndReproduced) {
-  Page page = this->page();
+  ModelPage page = this->page();
   page.ask("create_project", {{"name", "My tree!"}});
   page.wait_for_model();
   page.ask("edit", {{"label", "Draw"}, {"scene", page.scene_with("curves", kCurves)}, {"search", false}});
@@ -480,7 +415,7 @@ std::string favourite_path(const json& document) {
 }
 
 TEST_F(StudioTest, FavouritesHavePictures) {
-  Page page = this->page();
+  ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}, {"sample", "spaceship"}});
   ASSERT_TRUE(page.wait_for("shown"));
   page.ask("stop_search");
@@ -503,7 +438,7 @@ TEST_F(StudioTest, FavouritesHavePictures) {
 }
 
 TEST_F(StudioTest, ProjectsGoOutAndInAsOneFile) {
-  Page page = this->page();
+  ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}, {"sample", "spaceship"}});
   ASSERT_TRUE(page.wait_for("shown"));
   page.ask("stop_search");
@@ -543,7 +478,7 @@ TEST_F(StudioTest, ProjectsGoOutAndInAsOneFile) {
 TEST_F(StudioTest, AfterARestartAllIsThereTheModelToo) {
   json document, shown;
   {
-    Page page = this->page();
+    ModelPage page = this->page();
     page.ask("create_project", {{"name", "a"}});
     page.wait_for_model();
     page.ask("edit", {{"label", "Draw"}, {"scene", page.scene_with("curves", kCurves)}, {"search", true}});
@@ -551,7 +486,7 @@ TEST_F(StudioTest, AfterARestartAllIsThereTheModelToo) {
     document = page.seen["document"], shown = page.seen["shown"];
   }
   start();
-  Page page = this->page();
+  ModelPage page = this->page();
   EXPECT_EQ(page.ask("open_project", {{"project", document["project"]["id"]}}), "");
   EXPECT_EQ(page.seen["document"], document);
   ASSERT_TRUE(page.wait_for("shown"));
@@ -559,7 +494,7 @@ TEST_F(StudioTest, AfterARestartAllIsThereTheModelToo) {
 }
 
 TEST_F(StudioTest, ACloudTellsWhereARuleLands) {
-  Page page = this->page();
+  ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}});
   page.wait_for_model();
   page.ask("ask_reach", {{"rule", "Stem"}});
@@ -571,7 +506,7 @@ TEST_F(StudioTest, ACloudTellsWhereARuleLands) {
 }
 
 TEST_F(StudioTest, FormatIsAStep) {
-  Page page = this->page();
+  ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}});
   page.ask("edit", page.edit("grammar a 1\nstart A\nrule   A{emit box}\n"));
   EXPECT_EQ(page.ask("format"), "");

@@ -1,19 +1,10 @@
 // Files of an individual, and a pack of its relatives.
 import { useState } from "preact/hooks";
-import type { IndividualFormat } from "../connection/files";
 import { Icon } from "../controls/icons";
 import { NumberField } from "../controls/number_field";
+import { kModelFormats } from "../panels/model_formats";
 import { Menu } from "../shell/menu";
 import { useStudio } from "../shell/studio_context";
-
-const kFormats: readonly { format: IndividualFormat; name: string; words: string }[] = [
-  { format: "glb", name: "GLB", words: "model with materials" },
-  { format: "obj", name: "OBJ", words: "model with materials, zipped" },
-  { format: "ply", name: "PLY", words: "triangles" },
-  { format: "stl", name: "STL", words: "triangles, for printing" },
-  { format: "png", name: "PNG", words: "picture" },
-  { format: "zip", name: "Scene folder", words: "what espalier run runs, zipped" },
-];
 
 export function IndividualExports({ id }: { id: number }) {
   const studio = useStudio();
@@ -28,7 +19,7 @@ export function IndividualExports({ id }: { id: number }) {
         <h2 id="exports-title">Export</h2>
         <span class="cell-space" />
         <Menu label={`Export ${id}`} button={<><Icon name="export" />As a file</>}>
-          {kFormats.map(({ format, name, words }) => (
+          {kModelFormats.map(({ format, name, words }) => (
             <a key={format} role="menuitem" tabIndex={-1} href={studio.files.individualUrl(project, session, id, format)} download>
               <b>{name}</b>
               <span>{words}</span>

@@ -1,15 +1,11 @@
 import { Icon } from "../controls/icons";
 import type { ExportFormat } from "../connection/files";
+import { kModelFormats } from "./model_formats";
 import { Menu } from "../shell/menu";
 import { useStudio } from "../shell/studio_context";
 
 const kFormats: readonly { format: ExportFormat; name: string; words: string }[] = [
-  { format: "glb", name: "GLB", words: "model with materials" },
-  { format: "obj", name: "OBJ", words: "model with materials, zipped" },
-  { format: "ply", name: "PLY", words: "triangles" },
-  { format: "stl", name: "STL", words: "triangles, for printing" },
-  { format: "png", name: "PNG", words: "picture" },
-  { format: "zip", name: "Scene folder", words: "what espalier run runs, zipped" },
+  ...kModelFormats,
   { format: "espalier", name: "Project", words: "all of it as one file" },
 ];
 
