@@ -320,7 +320,7 @@ TEST(Scene, BadSettingsOfEnginesAreNamed) {
   EXPECT_THAT(error_of(with_line("engine", "ga = 3")), HasSubstr("engine.ga must be a table, got 3"));
   EXPECT_THAT(
       error_of(kLeast, {{"search.engine=smc2"}, {}}),
-      HasSubstr("search.engine must be one of \"ga\", \"smc\", \"sosmc\", \"rjmcmc\", \"hybrid\", \"guided\", got \"smc2\""));
+      HasSubstr("search.engine must be one of \"ga\", \"smc\", \"sosmc\", \"rjmcmc\", \"hybrid\", \"guided\", \"genesis\", got \"smc2\""));
 }
 
 TEST(Scene, BadOverridesSayWhereTheyCameFrom) {
