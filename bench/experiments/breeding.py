@@ -131,10 +131,15 @@ def breeding_section(out):
             table(["user", "method", "ratings, median and quartiles", "found", "of GenTree classic's", "shape"], method_rows(methods)) +
             "\n" + "\n".join(f"![Favourites found after so many ratings, the {w} user](pictures/experiments/breeding-{n}.svg)\n"
                              for n, w in NOISES) +
-            "\n![Distance of the nearest tree shown](pictures/experiments/breeding-distance.svg)\n\n" + SHAPE_NOTE.format(again=again, other=other) + "\n### GenTree's four variants\n\n" + VARIANT_NOTE +
+            "\n![Distance of the nearest tree shown](pictures/experiments/breeding-distance.svg)\n\n" + DISTANCE_NOTE +
+            SHAPE_NOTE.format(again=again, other=other) + "\n### GenTree's four variants\n\n" + VARIANT_NOTE +
             table(["variant", "paper", "generations", "best distance", "mean at the end", "diversity"], variant_rows(variants)))
 
 
+DISTANCE_NOTE = """A search ends where a close tree has been shown, and keeps that distance from then on: lines tell how soon they come down, and
+end near what counts as close.
+
+"""
 TITLE = "## Breeding: how many ratings a tree costs"
 NOTE = """A simulated user has a tree of `grammars/gentree.esp` in mind, a viable one, and rates what it is shown. The distance of two
 trees is the mean absolute difference of the quantiles of their 13 genes, the random seed among them; of two random trees it is about 1/3.
