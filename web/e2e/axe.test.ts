@@ -68,7 +68,7 @@ const states: readonly [string, (page: Page) => Promise<unknown>][] = [
     for (const key of ["5", "ArrowRight", "1"]) await page.keyboard.press(key);
     await page.getByRole("tab", { name: "Settings" }).click();
     await page.getByLabel("Learn my taste").check();
-    await page.getByText("chosen from").waitFor();
+    await page.getByText("You seem to like").waitFor();
     await page.getByRole("tab", { name: /^Model/ }).click();
     await page.getByText("for: a wide crown").waitFor();
   }],

@@ -315,7 +315,6 @@ describe("taste", () => {
     await start();
     await page.getByRole("tab", { name: "Settings" }).click();
     await page.getByLabel("Learn my taste").check();
-    await page.getByText("chosen from 120 candidates").waitFor();
     await page.getByText("wide crowns").waitFor();
     await page.getByRole("tab", { name: "Model 1" }).click();
     await page.getByText("for: a wide crown").waitFor();
