@@ -179,6 +179,8 @@ describe("rating", () => {
     await expect.poll(() => ratingOf(3)).toBeUndefined();
     await page.keyboard.press("Control+Shift+z");
     await expect.poll(() => ratingOf(3)).toBe(1);
+    for (const keys of ["Control+z", "Control+Shift+z", "Control+z"]) await page.keyboard.press(keys);
+    await expect.poll(() => [sent("undo_breeding").length, sent("redo_breeding").length, ratingOf(3)]).toEqual([3, 2, undefined]);
     expect(sent("undo")).toEqual([]);
   });
 

@@ -30,7 +30,7 @@ export async function takeRoomPictures(page: Page): Promise<void> {
   const press = async (...keys: string[]) => {
     for (const key of keys) await page.keyboard.press(key);
   };
-  await project("Guided bonsai");
+  await project("Arboretum");
   await page.getByRole("button", { name: "Breed", exact: true }).click();
   await shot("start");
   await page.getByRole("button", { name: "Start breeding" }).click();

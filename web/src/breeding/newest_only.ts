@@ -12,6 +12,13 @@ export class NewestOnly<T> {
     if (!this.busy) void this.run();
   }
 
+  /** Sends what waits now, ahead of what must come after it. */
+  flush(): void {
+    const what = this.next;
+    this.next = null;
+    if (what !== null) void this.send(what);
+  }
+
   clear(): void {
     this.next = null;
   }

@@ -28,7 +28,7 @@ export function ratingWords(rating: number | undefined): string {
 
 /** The best gets as much as five stars, the worst as little as one; who was it before on this screen gives it back. */
 export function extremes(
-  individuals: readonly Pick<BredIndividual, "id" | "rating">[], id: number, which: "best" | "worst",
+  individuals: readonly { id: number; rating?: number | undefined }[], id: number, which: "best" | "worst",
 ): Rating[] {
   const value = which === "best" ? ratingOfStars(kStars) : ratingOfStars(1);
   const own = individuals.find((one) => one.id === id);

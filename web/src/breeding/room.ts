@@ -38,6 +38,10 @@ export class Room {
   private wanted: number | null = null;
   private inside = false;
 
+  /** Ratings on their way: the second of two quick clicks counts from the first. */
+  private readonly said = new Map<number, number | undefined>();
+  private unanswered = 0;
+
   private readonly geneEdits = new NewestOnly<GeneEdit>(
     (edit) => this.ask({ kind: "set_genes", ...edit }),
     (before, after) => before.individual !== after.individual || before.gesture !== after.gesture ? after : {
@@ -87,11 +91,19 @@ export class Room {
     return this.studio.ask(ask);
   }
 
+  /** For what takes the session on or back: a slider's last step must not come after it. */
+  private askAfterEdits(ask: Ask): Promise<boolean> {
+    this.geneEdits.flush();
+    this.settingEdits.flush();
+    this.said.clear();
+    return this.studio.askAfterEdits(ask);
+  }
+
   /** Says what is being done, until it is. */
   private async slow(words: string, ask: Ask): Promise<boolean> {
     if (this.state.waiting.value !== null) return false;
     this.state.waiting.value = words;
-    const done = await this.studio.askAfterEdits(ask);
+    const done = await this.askAfterEdits(ask);
     this.state.waiting.value = null;
     return done;
   }
@@ -181,10 +193,15 @@ export class Room {
 
   private rate(ratings: Rating[], label: string, gesture?: string): void {
     if (!this.mayRate.value) return this.studio.tell("This session is bred without ratings. Its settings can change that.");
-    void this.ask({ kind: "rate", ratings, label, ...(gesture === undefined ? {} : { gesture }) });
+    for (const { individual, rating } of ratings) this.said.set(individual, rating);
+    void this.ask({ kind: "rate", ratings, label, ...(gesture === undefined ? {} : { gesture }) }).then(() => {
+      if (--this.unanswered === 0) this.said.clear();
+    });
+    ++this.unanswered;
   }
 
   private rating(id: number): number | undefined {
+    if (this.said.has(id)) return this.said.get(id);
     return this.individuals.value.find((one) => one.id === id)?.rating;
   }
 
@@ -204,7 +221,7 @@ export class Room {
   }
 
   extreme(id: number, which: "best" | "worst"): void {
-    this.rate(extremes(this.individuals.value, id, which), `${id} is the ${which}`);
+    this.rate(extremes(this.individuals.value.map((one) => ({ id: one.id, rating: this.rating(one.id) })), id, which), `${id} is the ${which}`);
   }
 
   /** Of the two that are compared; null: neither. */
@@ -230,11 +247,12 @@ export class Room {
   moreLike(id: number): void {
     void this.slow("Breeding …", { kind: "more_like_this", individual: id });
   }
+  // What there is to take back the server knows: a hand may be quicker than its answers.
   undo(): void {
-    if (this.state.breeding.value?.undo !== undefined) void this.ask({ kind: "undo_breeding" });
+    if (this.state.breeding.value !== null) void this.askAfterEdits({ kind: "undo_breeding" });
   }
   redo(): void {
-    if (this.state.breeding.value?.redo !== undefined) void this.ask({ kind: "redo_breeding" });
+    if (this.state.breeding.value !== null) void this.askAfterEdits({ kind: "redo_breeding" });
   }
 
   async keep(id: number): Promise<void> {

@@ -120,6 +120,23 @@ describe("doing", () => {
     expect((sent("rate").at(-1) as { ratings: object[] }).ratings[0]).not.toHaveProperty("rating");
   });
 
+  test("quick clicks add up, though none was answered", async () => {
+    for (let i = 0; i < 3; ++i) room().point(2, 1);
+    expect(sent("rate").at(-1)).toMatchObject({ ratings: [{ individual: 2, rating: 3 }] });
+    for (const one of sent("rate")) bench.socket.say({ kind: "done", request: one.request! });
+    await settle();
+    room().point(2, 1);  // of what the server says, which said nothing here
+    expect(sent("rate").at(-1)).toMatchObject({ ratings: [{ individual: 2, rating: 1 }] });
+  });
+
+  test("undo and redo are sent whatever was answered, after the last step of a slider", () => {
+    room().setGenes(1, [{ gene: 0, index: 4, quantile: 0.1 }], "g", "Set");
+    room().setGenes(1, [{ gene: 0, index: 4, quantile: 0.2 }], "g", "Set");
+    room().undo();
+    room().redo();
+    expect(bench.socket.sent.slice(-4).map((one) => one.kind)).toEqual(["set_genes", "set_genes", "undo_breeding", "redo_breeding"]);
+  });
+
   test("a mode without ratings sends none, and says why", () => {
     bench.socket.say(breedingOf(1, [1], { settings: { mode: "edit" } }));
     room().point(1, 1);
