@@ -1,6 +1,7 @@
-// Debian's Chromium and a page with a mock server of its own.
+// Debian's Chromium, and pages with a mock server or a real one of their own.
 import { chromium, type Browser, type Page } from "playwright-core";
 import { MockServer } from "../tests/mock_server.ts";
+import { Program } from "./program.ts";
 
 export async function launch(): Promise<Browser> {
   return chromium.launch({
@@ -11,19 +12,15 @@ export async function launch(): Promise<Browser> {
   });
 }
 
-export interface Studio {
+export interface Opened {
   page: Page;
-  server: MockServer;
-  url: string;
   /** Errors and warnings of the browser's console, and what was thrown. */
   complaints: string[];
-  close(): Promise<void>;
 }
 
-export async function openStudio(browser: Browser, size = { width: 1280, height: 800 }, colorScheme: "dark" | "light" = "dark"): Promise<Studio> {
-  const server = new MockServer();
-  const url = await server.start();
-  const context = await browser.newContext({ viewport: size, colorScheme, reducedMotion: "reduce" });
+/** A page of its own, that is watched from before it opens `url`. */
+export async function openPage(browser: Browser, url: string, size = { width: 1280, height: 800 }, colorScheme: "dark" | "light" = "dark"): Promise<Opened> {
+  const context = await browser.newContext({ viewport: size, colorScheme, reducedMotion: "reduce", acceptDownloads: true });
   const page = await context.newPage();
   const complaints: string[] = [];
   page.on("console", (message) => {
@@ -32,15 +29,38 @@ export async function openStudio(browser: Browser, size = { width: 1280, height:
   });
   page.on("pageerror", (error) => complaints.push(error.message));
   await page.goto(url);
+  return { page, complaints };
+}
+
+export interface Studio extends Opened {
+  server: MockServer;
+  url: string;
+  close(): Promise<void>;
+}
+
+/** The page with a mock server of its own. */
+export async function openStudio(browser: Browser, size?: { width: number; height: number }, colorScheme?: "dark" | "light"): Promise<Studio> {
+  const server = new MockServer();
+  const url = await server.start();
+  const { page, complaints } = await openPage(browser, url, size, colorScheme);
   await page.locator(".cm-content").waitFor();
   await page.locator(".project-button", { hasText: /Bonsai|Box/ }).waitFor();
   return {
     page, server, url, complaints,
     close: async () => {
-      await context.close();
+      await page.context().close();
       await server.stop();
     },
   };
+}
+
+/** The page with the real program of its own, which shows the projects; nothing was opened yet. */
+export async function openProgram(browser: Browser): Promise<Opened & { program: Program }> {
+  const program = new Program();
+  await program.start();
+  const opened = await openPage(browser, program.url);
+  opened.page.setDefaultTimeout(90_000);  // machines without a graphics card draw slowly
+  return { ...opened, program };
 }
 
 /** The grammar as the editor shows it. */

@@ -10,6 +10,7 @@
 //   shut down      of the server while pages are open
 import type { Page } from "playwright-core";
 import { cursorAfter, launch } from "./browser.ts";
+import { tell } from "./figures.ts";
 import { Program } from "./program.ts";
 
 interface Seen {
@@ -51,12 +52,6 @@ function watch(): void {
   addEventListener("pointerup", () => noted.ups.push(performance.now()), true);
   addEventListener("keydown", () => noted.keys.push(performance.now()), true);
   new PerformanceObserver((list) => noted.tasks.push(...list.getEntries().map((entry) => entry.duration))).observe({ type: "longtask" });
-}
-
-function tell(name: string, values: readonly number[], limit = ""): void {
-  const sorted = [...values].sort((a, b) => a - b);
-  const at = (share: number) => (sorted.length === 0 ? "–" : sorted[Math.min(sorted.length - 1, Math.ceil(share * sorted.length) - 1)]!.toFixed(1));
-  console.log(`${name.padEnd(14)} median ${at(0.5).padStart(8)}   p95 ${at(0.95).padStart(8)}   of ${String(sorted.length).padEnd(4)} ${limit}`);
 }
 
 const strokes = Number(process.argv[2] ?? 30);
@@ -118,13 +113,17 @@ try {
   }
   tell("stroke", waits, "(100 median, 200 p95 wanted)");
 
+  await page.getByRole("slider", { name: "Time", exact: true }).focus();
+  await page.keyboard.press("End");  // a minute: no search ends by itself before it is stopped
+  await page.waitForTimeout(1000);
+  const stop = page.locator(".search-button", { hasText: "Stop" });
+  if (await stop.isVisible()) await stop.click();
+  await idle(page);
   await page.evaluate(() => (seen.tasks.length = 0));
   const stops: number[] = [];
   for (let i = 0; i < 5; ++i) {
     await page.locator(".search-button").click();
     await page.waitForTimeout(1500);
-    const running = await page.evaluate(() => seen.states.at(-1)?.running === true);
-    if (!running) continue;
     stops.push(await page.locator(".search-button").evaluate(async (button: HTMLElement) => {
       const began = performance.now();
       button.click();
@@ -134,10 +133,15 @@ try {
         await new Promise((done) => setTimeout(done, 1));
       }
     }));
+    await idle(page);
   }
   const tasks = await page.evaluate(() => seen.tasks);
   tell("long tasks", tasks, `(0 wanted; in ${1.5 * stops.length} s of searching)`);
   tell("stop", stops);
+  await page.locator(".view-element").focus();
+  await page.keyboard.press("Control+z");
+  await page.waitForTimeout(500);
+  await idle(page);
 
   const reach: number[] = [];
   await cursorAfter(page, "rule Branch");

@@ -300,7 +300,7 @@ describe("history", () => {
     await generation(5).waitFor();
   });
 
-  test("a reload finds the session in the list, and a lost connection comes back into it", async () => {
+  test("a reload comes back into the session, and so does a lost connection", async () => {
     await start();
     await studio.server.stop();
     await page.getByText("Connection lost.", { exact: false }).waitFor();
@@ -309,6 +309,12 @@ describe("history", () => {
     await more(1).click();
     await expect.poll(() => ratingOf(1)).toBe(1);
     studio.complaints.length = 0; // browsers complain of refused connections
+    await page.reload();
+    await generation(1).waitFor();
+    expect(sent("open_breeding")).toHaveLength(2);
+    await page.getByRole("button", { name: "Model", exact: true }).click();
+    await page.reload();
+    await page.getByRole("button", { name: "Select and move" }).waitFor();
   });
 });
 

@@ -2,8 +2,8 @@
 import { readFileSync } from "node:fs";
 import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from "vitest";
 import type { Browser, Page } from "playwright-core";
-import { launch } from "./browser.ts";
-import { Program } from "./program.ts";
+import { launch, openProgram } from "./browser.ts";
+import type { Program } from "./program.ts";
 
 let browser: Browser;
 let program: Program;
@@ -14,17 +14,7 @@ beforeAll(async () => {
 });
 afterAll(() => browser.close());
 beforeEach(async () => {
-  program = new Program();
-  await program.start();
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: "reduce", acceptDownloads: true });
-  page = await context.newPage();
-  page.setDefaultTimeout(90_000); // machines without a graphics card draw slowly
-  complaints = [];
-  page.on("console", (message) => {
-    if (message.type() === "error" && !message.text().includes("GL Driver Message")) complaints.push(message.text());
-  });
-  page.on("pageerror", (error) => complaints.push(error.message));
-  await page.goto(program.url);
+  ({ page, program, complaints } = await openProgram(browser));
 });
 afterEach(async () => {
   await page.context().close();
@@ -93,8 +83,6 @@ test("a rating is there again after kill -9, and the page comes back into its se
   await program.start(port);
   await page.locator(".connection").waitFor({ state: "detached" });
   await page.reload();
-  await page.getByRole("button", { name: "Breed", exact: true }).click();
-  await page.locator(".session-name").first().click();
   await generation(1);
   await cell(4).and(page.locator("[aria-label*='+1']")).waitFor();
 });

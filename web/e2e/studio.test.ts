@@ -2,8 +2,8 @@
 import { readFileSync } from "node:fs";
 import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from "vitest";
 import type { Browser, Page } from "playwright-core";
-import { cursorAfter, grammarOf, launch } from "./browser.ts";
-import { Program } from "./program.ts";
+import { cursorAfter, grammarOf, launch, openProgram } from "./browser.ts";
+import type { Program } from "./program.ts";
 
 let browser: Browser;
 let program: Program;
@@ -15,17 +15,7 @@ beforeAll(async () => {
 });
 afterAll(() => browser.close());
 beforeEach(async () => {
-  program = new Program();
-  await program.start();
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: "reduce", acceptDownloads: true });
-  page = await context.newPage();
-  page.setDefaultTimeout(90_000);  // machines without a graphics card draw slowly
-  complaints = [];
-  page.on("console", (message) => {
-    if (message.type() === "error") complaints.push(message.text());
-  });
-  page.on("pageerror", (error) => complaints.push(error.message));
-  await page.goto(program.url);
+  ({ page, program, complaints } = await openProgram(browser));
 });
 afterEach(async () => {
   await page.context().close();

@@ -1,7 +1,7 @@
 import { effect, signal } from "@preact/signals";
 import { render } from "preact";
 import { Files } from "./connection/files";
-import { projectOf, socketAddress, tokenOf } from "./connection/link";
+import { placeOf, projectOf, sessionOf, socketAddress, tokenOf } from "./connection/link";
 import type { Socket } from "./connection/connection";
 import { App } from "./shell/app";
 import { keptPreferences } from "./store/preferences";
@@ -25,7 +25,8 @@ const studio = new Studio({
   preferences: keptPreferences(window.localStorage),
   systemDark,
   firstProject: projectOf(address),
-  onProject: (id) => window.history.replaceState(null, "", `#project=${id}`),
+  firstSession: sessionOf(address),
+  onPlace: (project, session) => window.history.replaceState(null, "", placeOf(project, session)),
   later: (milliseconds, action) => {
     const timer = window.setTimeout(action, milliseconds);
     return () => window.clearTimeout(timer);

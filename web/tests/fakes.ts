@@ -33,11 +33,13 @@ export class FakeSocket implements Socket {
 
 /** Time that the test moves. */
 export class FakeClock {
-  private now = 0;
+  private time = 0;
   private timers: { at: number; action: () => void }[] = [];
 
+  readonly now = () => this.time;
+
   readonly later = (milliseconds: number, action: () => void): (() => void) => {
-    const timer = { at: this.now + milliseconds, action };
+    const timer = { at: this.time + milliseconds, action };
     this.timers.push(timer);
     return () => {
       this.timers = this.timers.filter((one) => one !== timer);
@@ -45,9 +47,9 @@ export class FakeClock {
   };
 
   advance(milliseconds: number): void {
-    this.now += milliseconds;
+    this.time += milliseconds;
     for (;;) {
-      const due = this.timers.filter((one) => one.at <= this.now).sort((a, b) => a.at - b.at)[0];
+      const due = this.timers.filter((one) => one.at <= this.time).sort((a, b) => a.at - b.at)[0];
       if (due === undefined) return;
       this.timers = this.timers.filter((one) => one !== due);
       due.action();
@@ -81,10 +83,10 @@ export class Bench {
   readonly sockets: FakeSocket[] = [];
   readonly clock = new FakeClock();
   readonly preferences = signal({ ...PREFERENCE_DEFAULTS });
-  readonly opened: number[] = [];
+  readonly places: [project: number, session: number | null][] = [];
   readonly studio: Studio;
 
-  constructor(firstProject: number | null = null) {
+  constructor(firstProject: number | null = null, firstSession: number | null = null) {
     this.studio = new Studio({
       openSocket: () => {
         const socket = new FakeSocket();
@@ -95,7 +97,8 @@ export class Bench {
       preferences: this.preferences,
       systemDark: signal(true),
       firstProject,
-      onProject: (id) => this.opened.push(id),
+      firstSession,
+      onPlace: (project, session) => this.places.push([project, session]),
       later: this.clock.later,
       random: () => 1,
     });

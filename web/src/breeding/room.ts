@@ -1,5 +1,5 @@
 // What a person can do in the breeding room.
-import { batch, computed, effect, signal } from "@preact/signals";
+import { batch, computed, effect, signal, type Signal } from "@preact/signals";
 import type { BredGene, BredIndividual, DrawPlace, DrawSetting, Rating, RoomSettings, StartBreeding } from "../api";
 import type { Ask } from "../connection/connection";
 import { base64Of } from "../panels/keep_favourite";
@@ -35,7 +35,9 @@ export class Room {
   /** A small picture of an individual; there where models are drawn. */
   portrait: ((id: number) => Promise<Blob | null>) | null = null;
   /** The session to be in, over lost connections too. */
-  private wanted: number | null = null;
+  private readonly wanted: Signal<number | null>;
+  /** The session that the page shows; null: the model, or none. */
+  readonly place = computed(() => (this.here.value ? this.wanted.value : null));
   private inside = false;
 
   /** Ratings on their way: the second of two quick clicks counts from the first. */
@@ -54,18 +56,22 @@ export class Room {
   );
   private readonly previews = new NewestOnly<{ parents: number[]; weights: number[] }>((plan) => this.ask({ kind: "blend", ...plan }));
 
-  constructor(private readonly studio: Studio) {}
+  /** `first`: the session to be in as soon as its project is open; null: none, and the page begins with the model. */
+  constructor(private readonly studio: Studio, first: number | null) {
+    this.wanted = signal(first);
+    this.here.value = first !== null;
+  }
 
   // --- Messages -----------------------------------------------------------------------------------------------------------
 
   onMessage(message: RoomMessage): void {
     applyRoomMessage(this.state, message);
     if (message.kind === "breeding") {
-      this.wanted = message.session.id;
+      this.wanted.value = message.session.id;
       this.inside = true;
-    } else if (message.kind === "breedings" && this.wanted !== null && !this.inside) {
+    } else if (message.kind === "breedings" && this.wanted.value !== null && !this.inside) {
       // The connection was lost meanwhile, or the session was deleted by another page.
-      if (message.sessions.some((one) => one.id === this.wanted)) void this.open(this.wanted);
+      if (message.sessions.some((one) => one.id === this.wanted.value)) void this.open(this.wanted.value);
       else this.forget();
     }
   }
@@ -82,7 +88,7 @@ export class Room {
   }
 
   onOtherProject(): void {
-    this.wanted = null;
+    this.wanted.value = null;
     this.inside = false;
     forgetRoom(this.state);
   }
@@ -122,7 +128,7 @@ export class Room {
 
   async open(session: number): Promise<void> {
     if (this.state.breeding.value !== null && this.state.breeding.value.session.id !== session) forgetSession(this.state);
-    this.wanted = session;
+    this.wanted.value = session;
     if (await this.slow("Opening …", { kind: "open_breeding", session })) this.state.choosing.value = false;
   }
 
@@ -132,7 +138,7 @@ export class Room {
   }
 
   private forget(): void {
-    this.wanted = null;
+    this.wanted.value = null;
     this.inside = false;
     forgetSession(this.state);
   }
@@ -142,7 +148,7 @@ export class Room {
   }
 
   async delete(session: number): Promise<void> {
-    if (session === this.wanted) this.forget();
+    if (session === this.wanted.value) this.forget();
     await this.ask({ kind: "delete_breeding", session });
   }
 

@@ -6,7 +6,7 @@ export class Projects {
   private firstList = true;
 
   /** `current`: the project that is open or wanted; null: the newest. */
-  constructor(private readonly studio: Studio, private current: number | null, private readonly onProject: (id: number) => void) {}
+  constructor(private readonly studio: Studio, private current: number | null) {}
 
   /** A connection stands: the next list is its first. */
   expectList(): void {
@@ -15,9 +15,7 @@ export class Projects {
 
   /** A document came of this project. */
   arrived(id: number): void {
-    if (this.current === id) return;
     this.current = id;
-    this.onProject(id);
   }
 
   /** The first list of a connection: opens the project that was open, the one of the address, or the newest. */

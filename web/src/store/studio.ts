@@ -1,5 +1,5 @@
 // What a person can do, and the state that it changes. One history for all: undo and redo are the server's.
-import { batch, computed, type Signal } from "@preact/signals";
+import { batch, computed, effect, type Signal } from "@preact/signals";
 import type { Camera, Curve, Document, Message, Scene } from "../api";
 import { Connection, RequestFailed, type Ask, type Socket, type Status } from "../connection/connection";
 import { Files, freeName } from "../connection/files";
@@ -28,9 +28,11 @@ export interface StudioOptions {
   preferences: Signal<Preferences>;
   /** Whether the system wants dark. */
   systemDark: Signal<boolean>;
+  /** What to open first; null: the newest project, and no session. */
   firstProject: number | null;
-  /** The project is open now: for the address bar. */
-  onProject(id: number): void;
+  firstSession: number | null;
+  /** What the page shows, a project and, in the breeding room, a session of it: for the address bar. */
+  onPlace(project: number, session: number | null): void;
   later(milliseconds: number, action: () => void): () => void;
   random(): number;
 }
@@ -68,14 +70,15 @@ export class Studio implements ViewHost {
   readonly searching = new Searching(this);
   readonly genes = new Genes(this);
   readonly visibility = new Visibility(this);
-  readonly room = new Room(this);
+  readonly room: Room;
   private notices = 0;
 
   constructor(private readonly options: StudioOptions) {
     this.later = options.later;
     this.files = options.files;
     this.preferences = options.preferences;
-    this.projects = new Projects(this, options.firstProject, options.onProject);
+    this.room = new Room(this, options.firstSession);
+    this.projects = new Projects(this, options.firstProject);
     this.connection = new Connection({
       open: options.openSocket,
       later: options.later,
@@ -272,7 +275,11 @@ export class Studio implements ViewHost {
 
   /** Keeps what follows from the state itself; call once. */
   watch(): () => void {
-    const stops = [this.genes.watch(), this.visibility.watch(), this.room.watch(), watchReach(this, this.options.later)];
+    const place = effect(() => {
+      const project = this.state.confirmed.value?.project.id;
+      if (project !== undefined) this.options.onPlace(project, this.room.place.value);
+    });
+    const stops = [place, this.genes.watch(), this.visibility.watch(), this.room.watch(), watchReach(this, this.options.later)];
     return () => stops.forEach((stop) => stop());
   }
 }

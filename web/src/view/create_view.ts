@@ -14,11 +14,17 @@ import { cameraOf, eyeOf, framed, orbitOf, rayThrough, snapped, type Eye, type O
 import type { Hover } from "./overlay";
 import { PaintLayer } from "./paint_layer";
 import { kDark, kLight, type Palette } from "./palette";
+import { Sharpness } from "./sharpness";
 import { openContext, Stage, type Opened } from "./stage";
 import type { Ink } from "./stroke_placing";
 import { TargetLayer } from "./target_layer";
 import { Tools } from "./tools";
 import { along, emptyBox, isEmpty, join, type Box, type V } from "./vec";
+
+function later(call: () => void, milliseconds: number): () => void {
+  const id = setTimeout(call, milliseconds);
+  return () => clearTimeout(id);
+}
 
 export const kLook: Look = { parts: true, bones: false, field: false, targets: true, ground: true, dark: true };
 
@@ -51,6 +57,7 @@ export class View implements StudioView, Desk {
   private size = { width: 1, height: 1 };
   private readonly motion = new Motion();
   private readonly stage: Stage;
+  private readonly sharpness: Sharpness;
   private readonly model: ModelLayer;
   private readonly layer: TargetLayer;
   private readonly paint: PaintLayer;
@@ -79,11 +86,12 @@ export class View implements StudioView, Desk {
     element.replaceChildren(canvas);
     this.notices = new Notices(element);
     this.stage = new Stage(canvas, context, software);
+    this.sharpness = new Sharpness({ now: () => performance.now(), later: (milliseconds, call) => later(call, milliseconds) }, () => this.redraw());
     this.model = new ModelLayer(this.stage);
     this.layer = new TargetLayer(this.stage, () => this.applyScene(), (message) => this.notices.complain(message, 8000));
     this.draft = new Draft(host, {
       frame: (call) => void requestAnimationFrame(call),
-      later: (call, milliseconds) => { const id = setTimeout(call, milliseconds); return () => clearTimeout(id); },
+      later,
     }, () => this.applyScene());
     this.tools = new Tools(this);
     this.paint = new PaintLayer(element, host);
@@ -203,6 +211,7 @@ export class View implements StudioView, Desk {
   dispose(): void {
     cancelAnimationFrame(this.request);
     this.observer.disconnect();
+    this.sharpness.dispose();
     this.input.dispose();
     this.paint.finish(false, this.camera());
     for (const part of [this.notices, this.model, this.layer, this.stage]) part.dispose();
@@ -282,18 +291,25 @@ export class View implements StudioView, Desk {
     if (width < 1 || height < 1) return;
     this.size = { width, height };
     this.stage.resize(width, height);
-    const ratio = this.stage.renderer.getPixelRatio();
-    this.model.resize(width, height, ratio);
-    this.layer.resize(width, height, ratio);
+    this.fit();
     if (this.paint.open) this.paint.resize(width, height);
     // Drawn at once: a canvas that was given a new size is empty until then.
     this.draw(performance.now());
+  }
+
+  /** Lines know how many pixels there are. */
+  private fit(): void {
+    const { width, height } = this.size, ratio = this.stage.renderer.getPixelRatio();
+    this.model.resize(width, height, ratio);
+    this.layer.resize(width, height, ratio);
   }
 
   private draw(now: number): void {
     const start = performance.now();
     cancelAnimationFrame(this.request);
     this.request = 0;
+    const share = this.sharpness.next();
+    if (this.stage.setSharpness(share)) this.fit();
     this.motion.step(now);
     const eye = this.eye(), { draft, palette, hover, ink, snapMark, look, hidden } = this;
     const selection = this.tool === "paint" ? null : this.selection; // handles would be in the brush's way
@@ -309,6 +325,7 @@ export class View implements StudioView, Desk {
     const detail = { model: this.arrived?.model ?? null, milliseconds: this.cost.frame, calls: this.cost.calls };
     this.element.dispatchEvent(new CustomEvent("viewframe", { detail, bubbles: true }));
     this.arrived = null;
+    if (share === 1) this.stage.whenDrawn(start, (milliseconds) => this.sharpness.took(milliseconds));
     if (this.motion.moving) this.redraw();
   }
 }

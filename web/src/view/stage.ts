@@ -12,6 +12,8 @@ import { Parts } from "./parts";
 import { isEmpty, type Box } from "./vec";
 
 const kShadowSide = 2048;
+/** Milliseconds after which nobody waits for a frame's pixels any more. */
+const kLongest = 1000;
 
 export interface Opened {
   canvas: HTMLCanvasElement;
@@ -51,13 +53,17 @@ export class Stage {
   private readonly shadowMatrix = new Matrix4();
   private readonly shadowSize = new Vector2(1 / kShadowSide, 1);
   private shadowBox: Box | null = null;
+  /** Pixels of the screen in one of the page, when frames are sharp. */
+  private readonly full: number;
+  private awaited: WebGLSync | null = null;
 
   constructor(canvas: HTMLCanvasElement, context: WebGL2RenderingContext, readonly software: boolean) {
     this.renderer = new WebGLRenderer({ canvas, context });
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
     this.renderer.sortObjects = false; // `add` keeps the order; sorting would measure every geometry
-    this.renderer.setPixelRatio(software ? 1 : Math.min(window.devicePixelRatio || 1, 2));
+    this.full = software ? 1 : Math.min(window.devicePixelRatio || 1, 2);
+    this.renderer.setPixelRatio(this.full);
     this.parts = new Parts(!software);
     this.ground = new Ground(!software);
     this.camera.matrixAutoUpdate = false;
@@ -92,6 +98,29 @@ export class Stage {
 
   resize(width: number, height: number): void {
     this.renderer.setSize(width, height, true);
+  }
+
+  /** Draws with a share of the screen's pixels on a side from here on; what is drawn is gone. Returns whether that is another. */
+  setSharpness(share: number): boolean {
+    if (this.renderer.getPixelRatio() === this.full * share) return false;
+    this.renderer.setPixelRatio(this.full * share);
+    return true;
+  }
+
+  /** Calls with the milliseconds since `began` once all that was drawn has its pixels; not if it is asked again before that. */
+  whenDrawn(began: number, call: (milliseconds: number) => void): void {
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    const sync = this.awaited = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    const look = () => {
+      if (sync === null || this.awaited !== sync || gl.isContextLost()) return gl.deleteSync(sync);
+      const took = performance.now() - began;
+      if (gl.getSyncParameter(sync, gl.SYNC_STATUS) !== gl.SIGNALED && took < kLongest) return void setTimeout(look, 4);
+      gl.deleteSync(sync);
+      this.awaited = null;
+      call(took);
+    };
+    setTimeout(look, 4);
   }
 
   setPalette(p: Palette, dark: boolean): void {
@@ -142,6 +171,7 @@ export class Stage {
   }
 
   dispose(): void {
+    this.awaited = null;
     this.parts.dispose();
     this.ground.dispose();
     this.shadowTarget?.dispose();

@@ -99,6 +99,26 @@ describe("messages", () => {
     expect(room().state.genes.value!.genes).toHaveLength(2);
   });
 
+  test("the session of the address is opened, and the address keeps up", async () => {
+    const own = await new Bench(1, 7).open();
+    own.studio.watch();
+    expect(own.studio.room.here.value).toBe(true);
+    own.socket.say({ kind: "breedings", sessions: [{ id: 7, name: "S", changed: 1, generations: 1, classic: false }] });
+    expect(own.socket.sent.at(-1)).toMatchObject({ kind: "open_breeding", session: 7 });
+    own.socket.say({ ...breedingOf(1, [1]), session: { ...breedingOf(1, [1]).session, id: 7 } });
+    own.studio.room.go(false);
+    own.studio.room.go(true);
+    own.socket.say({ ...breedingOf(1, [1]), session: { ...breedingOf(1, [1]).session, id: 8 } });
+    expect(own.places).toEqual([[1, 7], [1, null], [1, 7], [1, 8]]);
+  });
+
+  test("a session of the address that is gone is forgotten", async () => {
+    const own = await new Bench(1, 7).open();
+    own.socket.say({ kind: "breedings", sessions: [] });
+    expect(own.socket.sent.filter((one) => one.kind === "open_breeding")).toEqual([]);
+    expect(own.studio.room.place.value).toBeNull();
+  });
+
   test("another project forgets the room", () => {
     bench.socket.say(breedingOf(1, [1]));
     bench.socket.say({ kind: "document", project: { id: 2, name: "P2", changed: 0 }, revision: 1, grammar: "", scene: {}, files: [], favourites: [] });

@@ -3,7 +3,7 @@ import type { Message } from "../../src/api";
 import { backoff } from "../../src/connection/backoff";
 import { Connection, ConnectionLost, RequestFailed, type Status } from "../../src/connection/connection";
 import { freeName } from "../../src/connection/files";
-import { projectOf, socketAddress, tokenOf } from "../../src/connection/link";
+import { placeOf, projectOf, sessionOf, socketAddress, tokenOf } from "../../src/connection/link";
 import { FakeClock, FakeSocket, settle } from "../fakes";
 
 function make() {
@@ -47,6 +47,9 @@ describe("the link", () => {
     expect(projectOf("http://h/?token=1&project=4#project=5")).toBe(5);
     expect(projectOf("http://h/#project=1e9")).toBeNull();
     expect(projectOf("http://h/")).toBeNull();
+    expect(sessionOf(`http://h/?token=1${placeOf(12, 7)}`)).toBe(7);
+    expect(projectOf(`http://h/?token=1${placeOf(12, 7)}`)).toBe(12);
+    expect(sessionOf(`http://h/${placeOf(12, null)}`)).toBeNull();
   });
 });
 

@@ -27,11 +27,11 @@ describe("opening", () => {
     const bench = await new Bench().open();
     bench.sayProjects(1, 2);
     expect(bench.socket.kinds()).toEqual(["open_project"]);
-    expect(bench.opened).toEqual([1]);
   });
 
   test("a project that was made is opened, whether or not the server does so itself", async () => {
     const bench = await new Bench().open();
+    bench.studio.watch();
     const made = bench.studio.projects.create("New", "bonsai");
     bench.sayProjects(1, 2);
     await bench.answer("create_project");
@@ -40,7 +40,7 @@ describe("opening", () => {
     await bench.answer("open_project");
     await made;
     expect(bench.studio.grammar.value).toBe("other");
-    expect(bench.opened).toEqual([1, 2]);
+    expect(bench.places).toEqual([[1, null], [2, null]]);
   });
 
   test("another project forgets what belongs to the first", async () => {

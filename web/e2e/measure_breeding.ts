@@ -1,0 +1,112 @@
+// How long a breeder waits, measured in the real page with the real program: npm run waits [TIMES] (after script/build, on a
+// machine that does nothing else). Prints median and 95th percentile in milliseconds, for each of a few samples.
+//   first 12       from the click that starts a session to the last of its models over the socket, and in its place on the page
+//   next 20        from the key that breeds to the generation's word, to the last of its models, and to all of them in place
+//   a rating       from the request to its answer, which comes when the rating is on the disk
+import type { Page } from "playwright-core";
+import { launch } from "./browser.ts";
+import { tell } from "./figures.ts";
+import { Program } from "./program.ts";
+
+interface Seen {
+  generations: { generation: number; at: number }[];
+  models: number[];
+  asked: Map<number, number>;
+  rated: number[];
+}
+declare const seen: Seen;
+
+/** Runs in the page before all else: notes what goes over the socket. */
+function watch(): void {
+  const noted: Seen = { generations: [], models: [], asked: new Map(), rated: [] };
+  Object.assign(window, { seen: noted });
+  const Socket = window.WebSocket;
+  window.WebSocket = class extends Socket {
+    constructor(address: string | URL, protocols?: string | string[]) {
+      super(address, protocols);
+      this.addEventListener("message", ({ data }: MessageEvent) => {
+        const at = performance.now();
+        if (typeof data !== "string") {
+          if (data instanceof ArrayBuffer && new TextDecoder().decode(data.slice(0, 4)) === "ESPI") noted.models.push(at);
+        } else if (data.startsWith('{"kind":"breeding"')) noted.generations.push({ generation: JSON.parse(data).generation, at });
+        else if (data.startsWith('{"kind":"done"')) {
+          const asked = noted.asked.get(JSON.parse(data).request);
+          if (asked !== undefined) noted.rated.push(at - asked);
+        }
+      });
+    }
+    override send(data: string | ArrayBufferLike | Blob | ArrayBufferView): void {
+      if (typeof data === "string" && data.includes('"kind":"rate"')) noted.asked.set(JSON.parse(data).request, performance.now());
+      super.send(data as string);
+    }
+  };
+}
+
+/** Milliseconds from `action` to each of: the generation's word, the last of its models, all in their places. */
+async function generation(page: Page, number: number, count: number, action: string): Promise<[number, number, number]> {
+  return page.evaluate(async ([number, count, action]) => {
+    const before = seen.models.length, words = seen.generations.length, began = performance.now();
+    if (action === "start") [...document.querySelectorAll("button")].find((one) => one.textContent?.includes("Start breeding"))!.click();
+    else (document.activeElement ?? document.body).dispatchEvent(new KeyboardEvent("keydown", { key: action, bubbles: true }));
+    const there = () => seen.generations.slice(words).find((one) => one.generation === number);
+    while (!there() || seen.models.length < before + count || document.querySelectorAll("[data-individual]").length !== count ||
+      document.querySelector(".cell-words") !== null) await new Promise((done) => setTimeout(done, 1));
+    await new Promise((done) => requestAnimationFrame(done));
+    return [there()!.at - began, seen.models.at(-1)! - began, performance.now() - began] as [number, number, number];
+  }, [number, count, action] as const);
+}
+
+const times = Number(process.argv[2] ?? 5);
+const browser = await launch();
+try {
+  for (const sample of ["Gentree", "Gentree natural", "Arboretum"]) {
+    const program = new Program();
+    try {
+      await program.start();
+      const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: "reduce" });
+      await context.addInitScript(watch);
+      const page = await context.newPage();
+      page.setDefaultTimeout(120_000);
+      await page.goto(program.url);
+      await page.getByRole("dialog", { name: "Projects" }).getByText(sample, { exact: true }).click();
+      await page.locator(".project-button", { hasText: sample }).waitFor();
+      await page.getByText(/[1-9]\S* parts/).waitFor();
+      await page.getByRole("button", { name: "Breed", exact: true }).click();
+      const start = async (count: number): Promise<[number, number, number]> => {
+        if ((await page.getByRole("button", { name: /^Sessions/ }).count()) > 0) await page.getByRole("button", { name: /^Sessions/ }).click();
+        await page.getByLabel("Models", { exact: true }).last().fill(String(count));
+        await page.keyboard.press("Tab");
+        return generation(page, 1, count, "start");
+      };
+      console.log(`== ${sample}`);
+      const first: [number, number, number][] = [], next: [number, number, number][] = [], quick: number[] = [];
+      for (let i = 0; i < times; ++i) {
+        first.push(await start(12));
+        await page.waitForTimeout(500);
+      }
+      tell("first 12, over the socket", first.map((one) => one[1]));
+      tell("first 12, in place", first.map((one) => one[2]), "(2000 wanted)");
+      await start(20);
+      for (let i = 0; i < times; ++i) {
+        await page.waitForTimeout(1000);
+        const cells = await page.locator("[data-individual]").all();
+        for (const k of [1, 4, 9]) {
+          await cells[k]!.getByRole("button", { name: "a point more" }).click();
+          await page.waitForTimeout(150);
+        }
+        await cells[0]!.focus();
+        next.push(await generation(page, i + 2, 20, "n"));
+      }
+      quick.push(...(await page.evaluate(() => seen.rated)));
+      tell("next 20, its word", next.map((one) => one[0]));
+      tell("next 20, over the socket", next.map((one) => one[1]), "(200 wanted)");
+      tell("next 20, in place", next.map((one) => one[2]));
+      tell("a rating", quick, "(50 wanted)");
+      await context.close();
+    } finally {
+      await program.end();
+    }
+  }
+} finally {
+  await browser.close();
+}
