@@ -275,9 +275,9 @@ export class Studio implements ViewHost {
 
   /** Keeps what follows from the state itself; call once. */
   watch(): () => void {
+    const project = computed(() => this.state.confirmed.value?.project.id);
     const place = effect(() => {
-      const project = this.state.confirmed.value?.project.id;
-      if (project !== undefined) this.options.onPlace(project, this.room.place.value);
+      if (project.value !== undefined) this.options.onPlace(project.value, this.room.place.value);
     });
     const stops = [place, this.genes.watch(), this.visibility.watch(), this.room.watch(), watchReach(this, this.options.later)];
     return () => stops.forEach((stop) => stop());

@@ -6,6 +6,7 @@ import {
   RGBAFormat, UnsignedByteType,
   Vector2, Vector3, Matrix4, type Texture,
 } from "three";
+import { coarseIndices } from "./coarse_mesh";
 import { kInstanceWords, kMaterialFloats, type MeshTable, type ModelMessage } from "./messages";
 import { extentOf, kProxy, type Extent } from "./part_picker";
 import { kPartsFragment, kPartsVertex, kShadowFragment, kShadowVertex } from "./parts_shader";
@@ -51,6 +52,8 @@ interface Batch {
   position: BufferAttribute;
   normal: BufferAttribute;
   index: BufferAttribute;
+  /** For quick frames; the same as `index` where that is coarse enough. */
+  coarse: BufferAttribute;
   mesh: Mesh<InstancedBufferGeometry, RawShaderMaterial>;
   buffer: InstancedInterleavedBuffer;
   words: Uint32Array;
@@ -66,6 +69,7 @@ export class Parts {
   readonly markWidth = { value: kMarkWidth };
   extents: Extent[] = [];
   private batches: Batch[] = [];
+  private quick = false;
   private materials: DataTexture;
 
   constructor(shadows: boolean) {
@@ -96,11 +100,19 @@ export class Parts {
     this.extents = table.meshes.map(extentOf);
     this.batches = table.meshes.map((mesh) => {
       const position = new BufferAttribute(mesh.positions, 3), normal = new BufferAttribute(mesh.normals, 3);
-      const index = new BufferAttribute(mesh.indices, 1);
-      const batch = { position, normal, index, count: 0 } as Batch;
+      const index = new BufferAttribute(mesh.indices, 1), fewer = coarseIndices(mesh.positions, mesh.indices);
+      const coarse = fewer === null ? index : new BufferAttribute(fewer, 1);
+      const batch = { position, normal, index, coarse, count: 0 } as Batch;
       this.reserve(batch, 16);
       return batch;
     });
+  }
+
+  /** Whether frames must be quick from here on, at the price of shape. */
+  setQuick(quick: boolean): void {
+    if (quick === this.quick) return;
+    this.quick = quick;
+    for (const batch of this.batches) batch.mesh.geometry.setIndex(quick ? batch.coarse : batch.index);
   }
 
   /** Copies the model's instances and materials; returns the box around the parts. */
@@ -194,7 +206,7 @@ export class Parts {
     const geometry = new InstancedBufferGeometry();
     geometry.setAttribute("position", batch.position);
     geometry.setAttribute("normal", batch.normal);
-    geometry.setIndex(batch.index);
+    geometry.setIndex(this.quick ? batch.coarse : batch.index);
     ["frameX", "frameY", "frameZ", "origin"].forEach((name, i) =>
       geometry.setAttribute(name, new InterleavedBufferAttribute(batch.buffer, 3, 3 * i)));
     geometry.setAttribute("extra", new InterleavedBufferAttribute(batch.buffer, 4, 12));

@@ -100,10 +100,12 @@ export class Stage {
     this.renderer.setSize(width, height, true);
   }
 
-  /** Draws with a share of the screen's pixels on a side from here on; what is drawn is gone. Returns whether that is another. */
+  /** Draws with a share of the screen's pixels on a side from here on, and meshes coarse where that is less than 1; what is drawn
+   *  is gone. Returns whether the share is another. */
   setSharpness(share: number): boolean {
     if (this.renderer.getPixelRatio() === this.full * share) return false;
     this.renderer.setPixelRatio(this.full * share);
+    this.parts.setQuick(share < 1);
     return true;
   }
 

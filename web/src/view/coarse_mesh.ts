@@ -1,0 +1,38 @@
+// Triangles for frames that must be quick: a mesh with fewer of them over the same vertices.
+
+/** Meshes with fewer triangles are as coarse as they need to be. */
+const kFew = 128;
+/** Cells along the longest side of a mesh: a ball keeps about 150 triangles. */
+const kCells = 6;
+
+/** The triangles whose corners lie in three different cells of a grid, each corner moved to the first vertex of its cell
+ *  (Rossignac and Borrel 1993); three vertices a triangle, as in `indices`. Null where that saves less than half. */
+export function coarseIndices(positions: Float32Array, indices: Uint32Array): Uint32Array | null {
+  if (indices.length < 3 * kFew) return null;
+  const least = [Infinity, Infinity, Infinity], most = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < positions.length; ++i) {
+    least[i % 3] = Math.min(least[i % 3]!, positions[i]!);
+    most[i % 3] = Math.max(most[i % 3]!, positions[i]!);
+  }
+  const longest = Math.max(most[0]! - least[0]!, most[1]! - least[1]!, most[2]! - least[2]!);
+  if (!(longest > 0)) return null;
+  const scale = kCells / longest, firsts = new Map<number, number>(), first = new Uint32Array(positions.length / 3);
+  for (let v = 0; v < first.length; ++v) {
+    let cell = 0;
+    for (let i = 0; i < 3; ++i) cell = cell * (kCells + 1) + Math.floor((positions[3 * v + i]! - least[i]!) * scale);
+    const known = firsts.get(cell);
+    if (known === undefined) firsts.set(cell, v);
+    first[v] = known ?? v;
+  }
+  const coarse = new Uint32Array(indices.length);
+  let count = 0;
+  for (let i = 0; i < indices.length; i += 3) {
+    const a = first[indices[i]!]!, b = first[indices[i + 1]!]!, c = first[indices[i + 2]!]!;
+    if (a === b || b === c || c === a) continue;
+    coarse[count] = a;
+    coarse[count + 1] = b;
+    coarse[count + 2] = c;
+    count += 3;
+  }
+  return count > 0 && 2 * count <= indices.length ? coarse.slice(0, count) : null;
+}
