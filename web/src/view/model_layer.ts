@@ -2,6 +2,7 @@
 // picked.
 import type { CloudMessage, MeshTable, ModelMessage } from "./messages";
 import { decodeCloud, decodeMeshes, decodeModel, kBoneWords, MessageError } from "./messages";
+import { CloudPoints } from "./cloud_points";
 import { contactPatch, contactSquare, kContactCells } from "./contact";
 import { markGenes } from "./gene_marks";
 import type { Highlight, Look, Portrait } from "./host";
@@ -10,12 +11,12 @@ import { PartPicker, type Hit } from "./part_picker";
 import type { Palette } from "./palette";
 import { encodePortrait, kPortraitHeight, kPortraitScale, kPortraitWidth } from "./portrait";
 import type { Stage } from "./stage";
-import { boneStrokes, cloudStrokes, StrokeBatch } from "./stroke_batch";
+import { boneStrokes, StrokeBatch } from "./stroke_batch";
 import { emptyBox, grow, isEmpty, type Box, type V } from "./vec";
 
 export class ModelLayer {
   readonly bones: StrokeBatch;
-  readonly cloud = new StrokeBatch(cloudStrokes);
+  readonly cloud = new CloudPoints();
   box: Box = emptyBox();
   private partsBox: Box = emptyBox();
   private table: MeshTable | null = null;
@@ -33,7 +34,7 @@ export class ModelLayer {
   constructor(private readonly stage: Stage) {
     this.bones = new StrokeBatch(boneStrokes(stage.parts.marks, stage.parts.markWidth));
     stage.add(this.bones.mesh, 5);
-    stage.add(this.cloud.mesh, 6);
+    stage.add(this.cloud.points, 6);
   }
 
   /** All three throw MessageError, and leave what is shown as it is. */
@@ -85,7 +86,7 @@ export class ModelLayer {
 
   resize(width: number, height: number, ratio: number): void {
     this.bones.resize(width, height, ratio);
-    this.cloud.resize(width, height, ratio);
+    this.cloud.resize(ratio);
   }
 
   setPalette(p: Palette): void {

@@ -1,4 +1,4 @@
-// Draws strokes: those of the overlay, given in pixels, and long lists of lines in space (bones, field, clouds), whose
+// Draws strokes: those of the overlay, given in pixels, and long lists of lines in space (bones, field), whose
 // widths in pixels follow from a rule in the shader. Instances of one quad, one draw call each.
 import {
   BufferAttribute, DynamicDrawUsage, GLSL3, InstancedBufferGeometry, InstancedInterleavedBuffer,
@@ -194,19 +194,5 @@ void stroke(out vec4 a, out vec4 b, out float wa, out float wb, out vec4 colour,
   wa = 2.6; wb = 0.5;
   colour = vec4(uColour, 0.05 + 0.7 * strength * strength);
   keep = strength > 0.004;
-}`,
-};
-
-/** A cloud: place and kind (0 start of a bone, 1 end, 2 middle of a part). Ends are smaller, middles larger. */
-export const cloudStrokes: StrokeKind = {
-  attributes: [["place", 3], ["sort", 1]],
-  depthTest: false,
-  uniforms: { uStart: { value: [1, 1, 1] }, uEnd: { value: [1, 1, 1] }, uMiddle: { value: [1, 1, 1] } },
-  vertex: `
-uniform vec3 uStart, uEnd, uMiddle;
-void stroke(out vec4 a, out vec4 b, out float wa, out float wb, out vec4 colour, inout float dash, inout bool keep) {
-  a = b = projectionMatrix * viewMatrix * vec4(place, 1);
-  wa = wb = sort < 0.5 ? 6.0 : sort < 1.5 ? 4.5 : 10.0;
-  colour = sort < 0.5 ? vec4(uStart, 0.5) : sort < 1.5 ? vec4(uEnd, 0.5) : vec4(uMiddle, 0.16);
 }`,
 };
