@@ -23,7 +23,7 @@ constexpr std::uint32_t kRandomModels = 24;  // that diversity is measured by
 
 std::unique_ptr<Executor> make_breeding_executor() {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  return cores > 2 ? make_tbb_executor(cores - 1) : make_serial_executor();
+  return cores > 1 ? make_tbb_executor(cores) : make_serial_executor();
 }
 
 BreedingBench::BreedingBench(ReadBlob read_blob, Executor& executor)

@@ -74,7 +74,7 @@ class BreedingBench {
   std::vector<std::vector<double>> random_;
 };
 
-/// All cores but one, which is left to the server; one where there are no more than two.
+/// All cores: somebody waits for what is bred, and the server's own threads hardly ever work.
 std::unique_ptr<Executor> make_breeding_executor();
 
 }  // namespace espalier::studio

@@ -2,6 +2,8 @@
 // machine that does nothing else). Prints median and 95th percentile in milliseconds, for each of a few samples.
 //   first 12       from the click that starts a session to the last of its models over the socket, and in its place on the page
 //   next 20        from the key that breeds to the generation's word, to the last of its models, and to all of them in place
+//   alone          the same without the page, whose frames a machine without a graphics card draws by processor: a bare socket in a
+//                  page without scripts
 //   a rating       from the request to its answer, which comes when the rating is on the disk
 import type { Page } from "playwright-core";
 import { launch } from "./browser.ts";
@@ -56,6 +58,57 @@ async function generation(page: Page, number: number, count: number, action: str
   }, [number, count, action] as const);
 }
 
+/** Milliseconds, first of a session of 12 and then of a generation of 20: to the word, to the last model. */
+async function alone(page: Page, url: string): Promise<{ first: number; word: number; next: number }[]> {
+  await page.route("**/*.js", (route) => route.abort());
+  await page.goto(url);
+  return page.evaluate(async (times) => {
+    const token = new URL(location.href).searchParams.get("token")!;
+    const socket = new WebSocket(`ws://${location.host}/socket?token=${token}`);
+    socket.binaryType = "arraybuffer";
+    let models = 0, asked = 0, last = 0;
+    const heard = new Map<number, number>();
+    const ids: number[] = [];
+    const words: { generation: number; at: number }[] = [];
+    socket.addEventListener("message", ({ data }) => {
+      if (typeof data !== "string") {
+        if (new TextDecoder().decode(data.slice(0, 4)) === "ESPI") ++models, (last = performance.now());
+        return;
+      }
+      const message = JSON.parse(data);
+      if (message.kind === "projects") ids.splice(0, ids.length, ...message.projects.map((one: { id: number }) => one.id));
+      if (message.kind === "breeding") words.push({ generation: message.generation, at: performance.now() });
+      if (message.kind === "failed") throw new Error(message.text);
+      if (message.request !== undefined) heard.set(message.request, performance.now());
+    });
+    const until = async (there: () => boolean) => {
+      while (!there()) await new Promise((done) => setTimeout(done, 1));
+    };
+    await until(() => ids.length > 0);
+    const ask = async (what: object) => {
+      const request = ++asked;
+      socket.send(JSON.stringify({ ...what, request }));
+      await until(() => heard.has(request));
+    };
+    await ask({ kind: "open_project", project: ids[0] });
+    const out: { first: number; word: number; next: number }[] = [];
+    for (let i = 0; i < times; ++i) {
+      const timed = async (what: object, count: number, generation: number): Promise<[number, number]> => {
+        await new Promise((done) => setTimeout(done, 700));
+        const began = performance.now(), before = models, said = words.length;
+        await ask(what);
+        await until(() => models >= before + count);
+        return [words.slice(said).find((one) => one.generation === generation)!.at - began, last - began];
+      };
+      const [, first] = await timed({ kind: "start_breeding", settings: { population: 12 }, from: "nothing", seed: i }, 12, 1);
+      await timed({ kind: "start_breeding", settings: { population: 20 }, from: "nothing", seed: 100 + i }, 20, 1);
+      const [word, next] = await timed({ kind: "breed" }, 19, 2);  // the best stays, and may be a twin
+      out.push({ first, word, next });
+    }
+    return out;
+  }, times);
+}
+
 const times = Number(process.argv[2] ?? 5);
 const browser = await launch();
 try {
@@ -102,6 +155,11 @@ try {
       tell("next 20, over the socket", next.map((one) => one[1]), "(200 wanted)");
       tell("next 20, in place", next.map((one) => one[2]));
       tell("a rating", quick, "(50 wanted)");
+      await page.close();
+      const bare = await alone(await context.newPage(), program.url);
+      tell("first 12, alone", bare.map((one) => one.first), "(2000 wanted)");
+      tell("next 20, alone, its word", bare.map((one) => one.word), "(200 wanted)");
+      tell("next 20, alone, models", bare.map((one) => one.next), "(200 wanted)");
       await context.close();
     } finally {
       await program.end();
