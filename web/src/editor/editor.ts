@@ -4,7 +4,7 @@ import { defaultKeymap, indentWithTab, toggleComment } from "@codemirror/command
 import { bracketMatching, codeFolding, foldGutter, foldKeymap, indentOnInput, indentUnit } from "@codemirror/language";
 import { lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
-import { Annotation, EditorState, Transaction, type Extension } from "@codemirror/state";
+import { Annotation, Compartment, EditorState, Transaction, type Extension } from "@codemirror/state";
 import {
   drawSelection, dropCursor, EditorView, highlightActiveLine, highlightActiveLineGutter, hoverTooltip, keymap, lineNumbers, tooltips,
 } from "@codemirror/view";
@@ -32,6 +32,7 @@ const fromServer = Annotation.define<boolean>();
 
 export class Editor {
   readonly view: EditorView;
+  private readonly access = new Compartment();
 
   constructor(parent: HTMLElement, text: string, private readonly host: EditorHost) {
     const root = parent.shadowRoot ?? parent.attachShadow({ mode: "open" });
@@ -77,6 +78,11 @@ export class Editor {
     this.view.dispatch({ changes: { from: at, insert }, selection: { anchor: at + insert.length - 1 }, scrollIntoView: true });
   }
 
+  /** Without a project there is nothing that could be typed. */
+  setReadOnly(readOnly: boolean): void {
+    this.view.dispatch({ effects: this.access.reconfigure(EditorState.readOnly.of(readOnly)) });
+  }
+
   dispose(): void {
     this.view.destroy();
   }
@@ -87,7 +93,7 @@ export class Editor {
       lineNumbers(), foldGutter({ openText: "▾", closedText: "▸" }), codeFolding({ placeholderText: "…" }), lintGutter({ hoverTime: 150 }),
       drawSelection(), dropCursor(), highlightActiveLine(), highlightActiveLineGutter(), highlightSelectionMatches(),
       bracketMatching(), closeBrackets(), indentOnInput(), indentUnit.of("  "), EditorState.tabSize.of(2), search({ top: false }),
-      espalierLanguage, espalierHighlighting, espalierFolding, editorTheme, tooltips({ position: "fixed" }),
+      this.access.of([]), espalierLanguage, espalierHighlighting, espalierFolding, editorTheme, tooltips({ position: "fixed" }),
       autocompletion({ override: [completionSource(() => this.host.symbols())], icons: false, activateOnTypingDelay: 60 }),
       hoverTooltip((view, at) => this.hover(view, at)),
       keymap.of([

@@ -1,5 +1,5 @@
 // The grammar on the left: the editor, tied to the store.
-import { effect } from "@preact/signals";
+import { computed, effect } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { addMeshFiles, isMeshFile } from "./drop_mesh";
 import { Editor } from "./editor";
@@ -15,6 +15,7 @@ export function GrammarPane() {
 
   useEffect(() => {
     const { state } = studio;
+    const hasProject = computed(() => studio.document.value !== null);
     const bursts = new TypingBursts();
     let reveal = false;
     const ownHistory = (action: () => void) => () => {
@@ -44,6 +45,7 @@ export function GrammarPane() {
         made.setText(text, reveal);
         reveal = false;
       }),
+      effect(() => made.setReadOnly(!hasProject.value)),
       effect(() => {
         const checked = state.checked.value;
         made.setProblems(checked?.problems ?? [], state.checkedText.peek());

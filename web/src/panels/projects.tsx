@@ -107,7 +107,7 @@ function ProjectRow({ project, onOpened }: { project: ProjectInfo; onOpened(): v
       <li>
         <div class="project-question" role="group" aria-label={`Delete ${project.name}`}>
           <span>Delete {project.name} with its history?</span>
-          <button type="button" class="button bad" onClick={() => void studio.ask({ kind: "delete_project", project: project.id })}>Delete</button>
+          <button type="button" class="button bad" onClick={() => void studio.projects.delete(project.id)}>Delete</button>
           <button type="button" class="button" ref={(button) => button?.focus()} onClick={() => setMode("row")}>Keep</button>
         </div>
       </li>

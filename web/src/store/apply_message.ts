@@ -13,7 +13,7 @@ export function applyMessage(state: State, message: Exclude<Message, RoomMessage
         state.samples.value = message.samples;
         break;
       case "document":
-        if (state.confirmed.value !== null && state.confirmed.value.project.id !== message.project.id) forgetProject(state);
+        if (state.confirmed.value?.project.id !== message.project.id) forgetProject(state);
         state.confirmed.value = message;
         dropLostSelection(state);
         break;

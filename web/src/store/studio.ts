@@ -154,10 +154,12 @@ export class Studio implements ViewHost {
 
   /** Of the grammar, while typing: sent when the keys rest. */
   type(grammar: string, gesture: string, rule: string | null): void {
+    if (this.state.confirmed.value === null) return;
     this.edits.push({ label: rule === null ? "Edit grammar" : `Edit ${rule}`, gesture, grammar, search: this.live() }, kTypingPause);
   }
 
   setGrammar(label: string, grammar: string): void {
+    if (this.state.confirmed.value === null) return;
     this.edits.push({ label, grammar, search: this.live() });
   }
 

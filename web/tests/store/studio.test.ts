@@ -29,6 +29,46 @@ describe("opening", () => {
     expect(bench.socket.kinds()).toEqual(["open_project"]);
   });
 
+  test("the open project, deleted here or elsewhere, gives way to the newest, or to the dialog", async () => {
+    const bench = await new Bench().open("one");
+    bench.socket.say(shownOf(3));
+    bench.sayProjects(1, 4, 2);
+    bench.studio.setGrammar("Edit", "two");
+    bench.sayProjects(4, 2);
+    expect(bench.socket.sent.at(-1)).toMatchObject({ kind: "open_project", project: 4 });
+    expect(bench.studio.state.notices.value.at(-1)).toMatchObject({ bad: true });
+    expect(bench.studio.document.value).toBeNull();
+    expect(bench.studio.state.shown.value).toBeNull();
+    expect(bench.studio.edits.size.value).toBe(0);
+    // A model of the deleted one may still have been on its way.
+    bench.socket.say(shownOf(4));
+    bench.socket.say(documentOf(1, "other", {}, 4));
+    expect(bench.studio.state.shown.value).toBeNull();
+    await bench.answer("open_project");
+    const said = bench.studio.state.notices.value.length;
+    void bench.studio.projects.delete(4);
+    bench.sayProjects();
+    await bench.answer("delete_project");
+    expect(bench.studio.document.value).toBeNull();
+    expect(bench.studio.state.dialog.value).toBe("projects");
+    expect(bench.studio.state.notices.value).toHaveLength(said);
+  });
+
+  test("what is typed while no project is open goes into none", async () => {
+    const bench = new Bench();
+    bench.socket.onopen!();
+    bench.sayProjects();
+    bench.studio.type("lost", "typing 1", null);
+    bench.studio.setGrammar("Insert", "lost");
+    bench.sayProjects(1);
+    void bench.studio.projects.open(1);
+    bench.socket.say(documentOf(1, "sample"));
+    await bench.answer("open_project");
+    bench.clock.advance(1000);
+    expect(bench.edits()).toEqual([]);
+    expect(bench.studio.grammar.value).toBe("sample");
+  });
+
   test("a project that was made is opened, whether or not the server does so itself", async () => {
     const bench = await new Bench().open();
     bench.studio.watch();
