@@ -22,7 +22,8 @@ import type { Keystroke } from "./typing";
 export interface EditorHost {
   symbols(): readonly Symbol[];
   typed(text: string, key: Keystroke): void;
-  cursor(at: number, focused: boolean): void;
+  /** `chosen`: a person went there, by key, click or jump; else the text moved, or the focus went. */
+  cursor(at: number, chosen: boolean): void;
   undo(): void;
   redo(): void;
   format(): void;
@@ -126,7 +127,7 @@ export class Editor {
           this.host.typed(update.state.doc.toString(), { from, to, erased, at: performance.now() });
         }
         if (update.docChanged || update.selectionSet || update.focusChanged)
-          this.host.cursor(update.state.selection.main.head, update.view.hasFocus);
+          this.host.cursor(update.state.selection.main.head, update.view.hasFocus || update.selectionSet);
       }),
     ];
   }

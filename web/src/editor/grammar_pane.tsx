@@ -26,9 +26,9 @@ export function GrammarPane() {
     const made = new Editor(place.current!, studio.grammar.peek(), {
       symbols: () => state.checked.peek()?.symbols ?? [],
       typed: (text, key) => studio.type(text, bursts.gesture(key), ruleAt(text, key.to)),
-      cursor: (at, focused) => {
-        const rule = focused ? ruleAt(made.text(), at) : null;
-        if (state.cursorRule.peek() !== rule) state.cursorRule.value = rule;
+      // The rule stays lit while one looks at it in the view, which takes the focus.
+      cursor: (at, chosen) => {
+        if (chosen || state.cursorRule.peek() !== null) state.cursorRule.value = ruleAt(made.text(), at);
       },
       undo: ownHistory(() => studio.undo()),
       redo: ownHistory(() => studio.redo()),

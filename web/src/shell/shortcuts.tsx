@@ -58,7 +58,8 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { key: "Backspace", words: "Delete the selected target", group: "Editing", unlisted: true, run: (studio) => onSelected(studio, "removeTarget") },
   { key: "]", words: "Select the next target", group: "Editing", run: (studio) => stepTarget(studio, 1) },
   { key: "[", words: "Select the target before", group: "Editing", run: (studio) => stepTarget(studio, -1) },
-  { key: "Escape", words: "Select nothing; the select tool", group: "Editing", run: (studio) => {
+  { key: "Escape", words: "Select nothing, light no rule; the select tool", group: "Editing", run: (studio) => {
+    studio.state.cursorRule.value = null;
     studio.setTool("select");
     studio.select(null);
   } },

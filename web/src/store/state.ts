@@ -60,7 +60,7 @@ export function newState() {
     tool: signal<Tool>("select"),
     brush: signal<{ brush: Brush; radius: number }>({ brush: "want", radius: 24 }),
     hidden: signal<Hidden>(kNoneHidden),
-    /** The rule or detail that the cursor stands in, while the editor has the focus. */
+    /** The rule or detail that the cursor was put in, until Escape in the view; null: none. */
     cursorRule: signal<string | null>(null),
     jump: signal<Jump | null>(null),
     notices: signal<readonly Notice[]>([]),
@@ -88,5 +88,6 @@ export function forgetProject(state: State): void {
   state.cloud.value = null;
   state.drawn.value = null;
   state.selection.value = null;
+  state.cursorRule.value = null;
   state.hidden.value = kNoneHidden;
 }
