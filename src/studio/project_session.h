@@ -80,7 +80,7 @@ class ProjectSession final : private LiveListener, private RoomListener {
 
   // Requests, on the session's thread; what throws Error has changed nothing.
   void change(const StoredState& next, const StoredStep& step, LiveStart start, std::optional<std::string> model = {},
-              const std::map<std::string, std::string>& blobs = {});
+              const std::map<std::string, std::string>& blobs = {}, std::optional<double> seconds = {});
   void moved(const std::optional<StoredMove>& move, const char* nothing);
   void take_now(StoredProjectState now);
   ShownModelPtr find_model(std::int64_t number) const;

@@ -263,7 +263,7 @@ export class MockServer {
         this.say(socket, this.search);
         return done();
       case "ask_gene":
-        this.say(socket, this.gene(message.gene));
+        this.say(socket, this.gene(message.gene ?? message.path!.split("/Fork/").length - 1));
         return done();
       case "set_draw":
       case "set_lock":

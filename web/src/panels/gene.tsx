@@ -27,7 +27,7 @@ export function GenePanel() {
       </div>
       <p class="gene-path" title={gene.path}>{gene.path}</p>
       <p class="hint">{gene.below === 0 ? "Nothing stands on it." : gene.below === 1 ? "One gene stands on it." : `${gene.below} genes stand on it.`}</p>
-      {stale && <p class="hint">The model has changed since. Click a part again.</p>}
+      {stale && <p class="hint">The model that is shown has no such part.</p>}
       {gene.draws.map((draw) => <DrawRow key={`${gene.path} ${draw.index}`} draw={draw} disabled={stale} />)}
     </Panel>
   );

@@ -30,10 +30,8 @@ export function applyMessage(state: State, message: Exclude<Message, RoomMessage
         state.shown.value = message;
         break;
       case "gene": {
-        if (state.wantedPath.value !== null && state.wantedPath.value !== message.path) {
-          if (state.selection.value?.kind === "gene") state.selection.value = null;
-          break;
-        }
+        // Of another that was selected before.
+        if (state.wantedPath.value !== null && state.wantedPath.value !== message.path) break;
         const other = state.gene.value?.path !== message.path;
         state.gene.value = message;
         state.selection.value = { kind: "gene", gene: message.gene };

@@ -1,5 +1,6 @@
 // The gene that is selected: its draws, its lock, and where it is in the next model.
 import { effect } from "@preact/signals";
+import { RequestFailed } from "../connection/connection";
 import type { Studio } from "./studio";
 
 export class Genes {
@@ -31,18 +32,22 @@ export class Genes {
     if (await this.studio.ask({ kind: "set_lock", gene: gene.gene, model: gene.model, locked })) this.askAgain();
   }
 
-  /** The selected gene as it is in the model that is shown now, if it is still the same. */
+  /** The gene as it is in the model that is shown now. Where that has none there, nothing is selected until one has. */
   private askAgain(): void {
     const { gene, shown, wantedPath, selection } = this.studio.state;
     const before = gene.peek();
     const model = shown.peek()?.model;
-    if (before === null || model === undefined || selection.peek()?.kind !== "gene") return;
+    const kind = selection.peek()?.kind;
+    if (before === null || model === undefined || (kind !== undefined && kind !== "gene")) return;
     wantedPath.value = before.path;
-    // A model that is not there any more was followed by another, for which this is done again.
-    this.studio.connection.request({ kind: "ask_gene", gene: before.gene, model }).catch(() => undefined);
+    this.studio.connection.request({ kind: "ask_gene", path: before.path, model }).catch((error: unknown) => {
+      // A model that is not there any more was followed by another, for which this is done again.
+      const newest = shown.peek()?.model === model && gene.peek()?.path === before.path && gene.peek()?.model !== model;
+      if (error instanceof RequestFailed && newest && selection.peek()?.kind === "gene") selection.value = null;
+    });
   }
 
-  /** A gene's number means nothing in another model: it is asked for again. */
+  /** A gene's number means nothing in another model: it is asked for again, by its path. */
   watch(): () => void {
     return effect(() => {
       const model = this.studio.state.shown.value?.model;

@@ -46,7 +46,7 @@ export function newState() {
     search: signal<SearchState | null>(null),
     shown: signal<Shown | null>(null),
     gene: signal<Gene | null>(null),
-    /** Path of the gene that was asked for again in a new model, where its number may mean another; null: any will do. */
+    /** Path of the gene that is asked for again in each new model; null: another was chosen, by its number. */
     wantedPath: signal<string | null>(null),
     log: signal<readonly LogLine[]>([]),
     /** The newest binary messages. */

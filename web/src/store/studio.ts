@@ -186,14 +186,14 @@ export class Studio implements ViewHost {
     batch(() => {
       this.visibility.removed(kind, index);
       this.setScene(`Delete ${kind} ${index + 1}`, removeTarget(this.scene.value, kind, index));
-      this.state.selection.value = null;
+      this.select(null);
     });
   }
 
   duplicateTarget(kind: TargetKind, index: number): void {
     batch(() => {
       this.setScene(`Duplicate ${kind} ${index + 1}`, duplicateTarget(this.scene.value, kind, index));
-      this.state.selection.value = { kind, index: countOf(this.scene.value, kind) - 1 };
+      this.select({ kind, index: countOf(this.scene.value, kind) - 1 });
     });
   }
 
@@ -268,7 +268,7 @@ export class Studio implements ViewHost {
       ? changeSilhouette(before, index, { image: file, want_image: undefined, avoid_image: undefined })
       : addSilhouette(before, { image: file, view: "parts", camera });
     this.setScene("Paint silhouette", scene);
-    this.state.selection.value = { kind: "silhouette", index: index >= 0 ? index : silhouettesOf(scene).length - 1 };
+    this.select({ kind: "silhouette", index: index >= 0 ? index : silhouettesOf(scene).length - 1 });
   }
 
   drawn(_model: number, milliseconds: number): void {

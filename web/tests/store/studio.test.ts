@@ -268,20 +268,42 @@ describe("genes", () => {
     bench.studio.select({ kind: "gene", gene: 4 });
     bench.socket.say(gene(3, 4));
     bench.socket.say(shownOf(5));
-    expect(bench.socket.sent.at(-1)).toMatchObject({ kind: "ask_gene", gene: 4, model: 5 });
-    bench.socket.say(gene(5, 4));
-    expect(bench.studio.state.selection.value).toEqual({ kind: "gene", gene: 4 });
+    const again = bench.socket.sent.at(-1)!;
+    expect(again).toMatchObject({ kind: "ask_gene", path: "A/B", model: 5 });
+    expect(again).not.toHaveProperty("gene");
+    // Its number is another there.
+    bench.socket.say(gene(5, 7));
+    expect(bench.studio.state.selection.value).toEqual({ kind: "gene", gene: 7 });
     expect(bench.studio.state.gene.value!.model).toBe(5);
+    // An answer that comes too late changes nothing.
+    bench.studio.select({ kind: "gene", gene: 8 });
+    bench.socket.say(gene(5, 8, "A/D"));
     bench.socket.say(shownOf(6));
-    bench.socket.say(gene(6, 4, "A/C"));
+    bench.socket.say(gene(5, 7));
+    expect(bench.studio.state.gene.value!.path).toBe("A/D");
+    stop();
+  });
+
+  test("that a model does not have are selected again as soon as one has them, unless something else was", async () => {
+    const bench = await new Bench().open();
+    const stop = bench.studio.watch();
+    bench.socket.say(shownOf(3));
+    bench.studio.select({ kind: "gene", gene: 4 });
+    bench.socket.say(gene(3, 4));
+    bench.socket.say(shownOf(4));
+    bench.socket.say(shownOf(5));
+    await bench.answer("ask_gene", "model 5 has no gene A/B");
     expect(bench.studio.state.selection.value).toBeNull();
     expect(bench.studio.state.gene.value!.path).toBe("A/B");
-    const count = bench.socket.sent.length;
+    bench.socket.say(shownOf(6));
+    bench.socket.say(gene(6, 2));
+    expect(bench.studio.state.selection.value).toEqual({ kind: "gene", gene: 2 });
     bench.socket.say(shownOf(7));
+    await bench.answer("ask_gene", "model 7 has no gene A/B");
+    bench.studio.select(null);
+    const count = bench.socket.sent.length;
+    bench.socket.say(shownOf(8));
     expect(bench.socket.sent).toHaveLength(count);
-    bench.studio.select({ kind: "gene", gene: 8 });
-    bench.socket.say(gene(7, 8, "A/D"));
-    expect(bench.studio.state.gene.value!.path).toBe("A/D");
     stop();
   });
 
