@@ -23,6 +23,7 @@ const studio = new Studio({
   openSocket: () => new WebSocket(socketAddress(address, token)) as Socket,
   files: new Files(address, token),
   preferences: keptPreferences(window.localStorage),
+  parking: window.sessionStorage,
   systemDark,
   firstProject: projectOf(address),
   firstSession: sessionOf(address),

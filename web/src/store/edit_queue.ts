@@ -37,6 +37,8 @@ export class EditQueue {
     }
     return out;
   });
+  /** All that the server has not confirmed, oldest first. */
+  readonly waiting = computed<readonly DocumentEdit[]>(() => this.entries.value.map((entry) => entry.edit));
   readonly size = computed(() => this.entries.value.length);
 
   constructor(private readonly options: EditQueueOptions) {}

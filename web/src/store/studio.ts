@@ -10,6 +10,7 @@ import { MessageError } from "../view/messages";
 import { applyBinary, applyMessage } from "./apply_message";
 import { EditQueue } from "./edit_queue";
 import { Genes } from "./genes";
+import { ParkedEdits, type Parking } from "./parked_edits";
 import type { Preferences } from "./preferences";
 import { Projects } from "./projects";
 import {
@@ -26,6 +27,8 @@ export interface StudioOptions {
   openSocket(): Socket;
   files: Files;
   preferences: Signal<Preferences>;
+  /** Keeps edits over a reload. */
+  parking: Parking;
   /** Whether the system wants dark. */
   systemDark: Signal<boolean>;
   /** What to open first; null: the newest project, and no session. */
@@ -71,6 +74,7 @@ export class Studio implements ViewHost {
   readonly genes = new Genes(this);
   readonly visibility = new Visibility(this);
   readonly room: Room;
+  readonly parked: ParkedEdits;
   private notices = 0;
 
   constructor(private readonly options: StudioOptions) {
@@ -93,6 +97,7 @@ export class Studio implements ViewHost {
       onFailed: (edit, text) => this.tell(`${edit.label}: ${text}`, true),
       later: options.later,
     });
+    this.parked = new ParkedEdits(this, options.parking);
   }
 
   // --- Connection -------------------------------------------------------------------------------------------------------
@@ -281,7 +286,7 @@ export class Studio implements ViewHost {
     const place = effect(() => {
       if (project.value !== undefined) this.options.onPlace(project.value, this.room.place.value);
     });
-    const stops = [place, this.genes.watch(), this.visibility.watch(), this.room.watch(), watchReach(this, this.options.later)];
+    const stops = [place, this.genes.watch(), this.visibility.watch(), this.room.watch(), this.parked.watch(), watchReach(this, this.options.later)];
     return () => stops.forEach((stop) => stop());
   }
 }

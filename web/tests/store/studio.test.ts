@@ -119,6 +119,43 @@ describe("a lost connection", () => {
     expect(bench.studio.grammar.value).toBe("three");
   });
 
+  test("what waits is sent after a reload too, to its own project alone and once", async () => {
+    const before = await new Bench().open("one");
+    const stop = before.studio.watch();
+    before.socket.onclose!();
+    before.studio.type("two", "typing 1", "Stem");
+    stop();
+    const after = new Bench(1, null, before.parked);
+    after.studio.watch();
+    after.socket.onopen!();
+    after.sayProjects(1, 2);
+    after.socket.say(documentOf(1, "one"));
+    await after.answer("open_project");
+    expect(after.studio.grammar.value).toBe("two");
+    expect(after.edits()).toMatchObject([{ label: "Edit Stem", grammar: "two" }]);
+    after.socket.say(documentOf(2, "two"));
+    await after.answer("edit");
+    expect(after.parked.size).toBe(0);
+
+    const other = new Bench(2, null, new Map([["espalier-studio-edits", '{"project":1,"edits":[{"label":"a","grammar":"two"}]}']]));
+    other.studio.watch();
+    other.socket.onopen!();
+    other.sayProjects(1, 2);
+    other.socket.say(documentOf(1, "other", {}, 2));
+    await other.answer("open_project");
+    expect(other.edits()).toEqual([]);
+    expect(other.studio.grammar.value).toBe("other");
+    void new Bench(1, null, new Map([["espalier-studio-edits", "nonsense"]])).open();
+  });
+
+  test("what was sent before the page went is not sent again", async () => {
+    const before = await new Bench().open("one");
+    const stop = before.studio.watch();
+    before.studio.setGrammar("Edit", "two");
+    stop();
+    expect(before.parked.size).toBe(0);
+  });
+
   test("a project that is gone is told of, and its edits with it", async () => {
     const bench = await new Bench().open("one");
     bench.socket.onclose!();
