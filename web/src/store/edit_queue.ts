@@ -1,6 +1,6 @@
 // Edits on their way to the server. Each holds the whole new grammar or scene, so what the page shows is what the server
 // confirmed with these laid over it, and sending one again after a lost connection does no harm.
-import { computed, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import type { Scene } from "../api";
 import { ConnectionLost } from "../connection/connection";
 
@@ -66,6 +66,17 @@ export class EditQueue {
   flush(): void {
     this.release();
     this.pump(Infinity);
+  }
+
+  /** Until nothing waits and all was answered. */
+  rest(): Promise<void> {
+    return new Promise((done) => {
+      const stop = effect(() => {
+        if (this.size.value > 0) return;
+        queueMicrotask(() => stop());
+        done();
+      });
+    });
   }
 
   /** The connection is there and the project is open. */

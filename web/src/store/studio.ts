@@ -138,10 +138,20 @@ export class Studio implements ViewHost {
     }
   }
 
-  /** After all edits that were made before it. */
-  askAfterEdits(ask: Ask): Promise<boolean> {
+  /** After all edits and draws that were made before it. */
+  async askAfterEdits(ask: Ask): Promise<boolean> {
+    if (this.genes.rest !== null) await this.genes.rest;
     this.edits.flush();
     return this.ask(ask);
+  }
+
+  /** Until the server has confirmed all that was done here; null: it has. */
+  get rest(): Promise<void> | null {
+    if (this.genes.rest === null && this.edits.size.value === 0) return null;
+    return Promise.resolve(this.genes.rest).then(() => {
+      this.edits.flush();
+      return this.edits.rest();
+    });
   }
 
   /** What is bad, or has a picture beside it, stands in the log too. */

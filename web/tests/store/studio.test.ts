@@ -369,6 +369,49 @@ describe("genes", () => {
     await bench.answer("set_draw");
     expect(draws()).toHaveLength(2);
   });
+
+  test("the last of one slider is not lost to the next, which is set in the model that it made", async () => {
+    const bench = await new Bench().open();
+    bench.socket.say(shownOf(3));
+    bench.socket.say(gene(3, 4));
+    bench.studio.genes.setDraw(0, 0.1, "a");
+    bench.studio.genes.setDraw(0, 0.2, "a");
+    bench.studio.genes.setDraw(1, 0.7, "b");
+    const draws = () => bench.socket.sent.filter((one) => one.kind === "set_draw").map(({ index, quantile, model }) => [index, quantile, model]);
+    await bench.answer("set_draw");
+    await bench.answer("set_draw");
+    expect(draws()).toEqual([[0, 0.1, 3], [0, 0.2, 3]]);
+    bench.socket.say(shownOf(4));
+    bench.socket.say(gene(4, 4));
+    await settle();
+    expect(draws()).toEqual([[0, 0.1, 3], [0, 0.2, 3], [1, 0.7, 4]]);
+  });
+
+  test("undo and locks come after draws and edits that wait", async () => {
+    const bench = await new Bench().open();
+    bench.socket.say(shownOf(3));
+    bench.studio.select({ kind: "gene", gene: 4 });
+    bench.socket.say(gene(3, 4));
+    bench.studio.genes.setDraw(0, 0.1, "a");
+    bench.studio.genes.setDraw(0, 0.2, "a");
+    bench.studio.undo();
+    expect(bench.socket.kinds()).not.toContain("undo");
+    await bench.answer("set_draw");
+    await bench.answer("set_draw");
+    expect(bench.socket.kinds().slice(-3)).toEqual(["set_draw", "set_draw", "undo"]);
+    await bench.answer("undo");
+    bench.studio.type("typed", "typing 1", null);
+    void bench.studio.genes.setLock(true);
+    expect(bench.socket.kinds().slice(-2)).toEqual(["edit", "set_lock"]);
+    expect(bench.studio.rest).not.toBeNull();
+    let rested = false;
+    void bench.studio.rest!.then(() => (rested = true));
+    await settle();
+    expect(rested).toBe(false);
+    await bench.answer("edit");
+    expect(rested).toBe(true);
+    expect(bench.studio.rest).toBeNull();
+  });
 });
 
 describe("the reach of the rule under the cursor", () => {
