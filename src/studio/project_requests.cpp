@@ -14,6 +14,8 @@
 namespace espalier::studio {
 namespace {
 
+constexpr std::size_t kMostDropped = 20;  // favourites that can be taken back
+
 template <class Message>
 std::string answer_text(Message message, std::optional<std::int64_t> number) {
   message.request = number;
@@ -174,10 +176,22 @@ void ProjectSession::keep(StoredFavourite favourite) {
 
 void ProjectSession::act(const WebSocketPtr&, const api::DropFavourite& drop) {
   const auto is_it = [&](const StoredFavourite& one) { return one.id == drop.favourite; };
-  if (std::none_of(favourites_.begin(), favourites_.end(), is_it)) throw Error("there is no such favourite");
+  const auto found = std::find_if(favourites_.begin(), favourites_.end(), is_it);
+  if (found == favourites_.end()) throw Error("there is no such favourite");
   store_.remove_favourite(project_, drop.favourite);
-  std::erase_if(favourites_, is_it);
+  dropped_.push_back(std::move(*found));
+  if (dropped_.size() > kMostDropped) dropped_.pop_front();
+  favourites_.erase(found);
   send_document();
+}
+
+void ProjectSession::act(const WebSocketPtr&, const api::RestoreFavourite& restore) {
+  // Numbers are given again: the newest of that number.
+  const auto is_it = [&](const StoredFavourite& one) { return one.id == restore.favourite; };
+  const auto found = std::find_if(dropped_.rbegin(), dropped_.rend(), is_it);
+  if (found == dropped_.rend()) throw Error("there is no such favourite among those that were dropped last");
+  keep(*found);
+  dropped_.erase(std::prev(found.base()));
 }
 
 void ProjectSession::act(const WebSocketPtr&, const api::ShowFavourite& show) {

@@ -483,6 +483,16 @@ TEST_F(StudioTest, FavouritesHavePictures) {
   EXPECT_THAT(page.ask("keep_favourite", {{"picture", encode_base64(picture + std::string(32u << 10, 'x'))}}),
               HasSubstr("at most"));
   EXPECT_EQ(page.seen["document"]["favourites"].size(), 2u);
+
+  const json dropped = page.seen["document"]["favourites"][1];
+  EXPECT_EQ(page.ask("drop_favourite", {{"favourite", dropped["id"]}}), "");
+  EXPECT_EQ(page.seen["document"]["favourites"].size(), 1u);
+  EXPECT_EQ(page.ask("restore_favourite", {{"favourite", dropped["id"]}}), "");
+  EXPECT_EQ(page.seen["document"]["favourites"].size(), 2u);
+  EXPECT_EQ(page.seen["document"]["favourites"][1]["score"], dropped["score"]);
+  EXPECT_EQ(http(favourite_path(page.seen["document"])).body, picture);
+  EXPECT_EQ(page.ask("show_favourite", {{"favourite", page.seen["document"]["favourites"][1]["id"]}}), "");
+  EXPECT_THAT(page.ask("restore_favourite", {{"favourite", dropped["id"]}}), HasSubstr("no such favourite"));
 }
 
 TEST_F(StudioTest, ProjectsGoOutAndInAsOneFile) {

@@ -53,6 +53,6 @@ export async function addMeshFiles(
     const project = studio.document.peek()?.project.id;
     const facts = await arrived(studio, path);
     const words = facts === null ? "" : `: ${meshWords(facts)}`;
-    studio.tell(`${path}${words}. The grammar calls it ${name}.`, false, project === undefined ? undefined : studio.files.previewUrl(project, path));
+    studio.tell(`${path}${words}. The grammar calls it ${name}.`, false, project === undefined ? {} : { picture: studio.files.previewUrl(project, path) });
   }
 }

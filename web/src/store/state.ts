@@ -15,13 +15,18 @@ export interface LogLine extends Omit<Log, "kind" | "request"> {
   picture?: string;
 }
 
+export interface NoticeMore {
+  /** Address of a picture beside it. */
+  picture?: string;
+  /** What can be done about it. */
+  action?: { words: string; run(): void };
+}
+
 /** A word to the person that goes by itself. */
-export interface Notice {
+export interface Notice extends NoticeMore {
   number: number;
   text: string;
   bad: boolean;
-  /** Address of a picture beside it. */
-  picture?: string;
 }
 
 /** Where the editor shall go; a new object each time. */

@@ -19,7 +19,7 @@ import {
 } from "./scene";
 import { Searching } from "./searching";
 import { stable } from "./stable";
-import { addLog, newState, type TargetSelection } from "./state";
+import { addLog, newState, type NoticeMore, type TargetSelection } from "./state";
 import { Visibility } from "./visibility";
 import { watchReach } from "./watch_reach";
 
@@ -43,6 +43,8 @@ export interface StudioOptions {
 /** Milliseconds without a key before typed text is sent. */
 export const kTypingPause = 150;
 const kNoticeMilliseconds = 5000;
+/** Of notices that something can be done about. */
+const kOfferMilliseconds = 15000;
 
 export class Studio implements ViewHost {
   readonly state = newState();
@@ -154,15 +156,16 @@ export class Studio implements ViewHost {
     });
   }
 
-  /** What is bad, or has a picture beside it, stands in the log too. */
-  tell(text: string, bad = false, picture?: string): void {
+  /** It goes by itself, and stands in the log. */
+  tell(text: string, bad = false, more: NoticeMore = {}): void {
     const number = ++this.notices;
-    const notice = { number, text, bad, ...(picture === undefined ? {} : { picture }) };
-    this.state.notices.value = [...this.state.notices.value, notice].slice(-3);
-    if (bad || picture !== undefined) addLog(this.state, bad ? "error" : "info", text, new Date(), picture);
-    this.options.later(kNoticeMilliseconds, () => {
-      this.state.notices.value = this.state.notices.value.filter((notice) => notice.number !== number);
-    });
+    this.state.notices.value = [...this.state.notices.value, { number, text, bad, ...more }].slice(-3);
+    addLog(this.state, bad ? "error" : "info", text, new Date(), more.picture);
+    this.options.later(more.action === undefined ? kNoticeMilliseconds : kOfferMilliseconds, () => this.unsay(number));
+  }
+
+  unsay(notice: number): void {
+    this.state.notices.value = this.state.notices.value.filter(({ number }) => number !== notice);
   }
 
   // --- Editing ----------------------------------------------------------------------------------------------------------
@@ -187,11 +190,11 @@ export class Studio implements ViewHost {
     return this.preferences.value.live;
   }
 
-  undo(): void {
-    void this.askAfterEdits({ kind: "undo" });
+  undo(): Promise<boolean> {
+    return this.askAfterEdits({ kind: "undo" });
   }
-  redo(): void {
-    void this.askAfterEdits({ kind: "redo" });
+  redo(): Promise<boolean> {
+    return this.askAfterEdits({ kind: "redo" });
   }
   format(): void {
     void this.askAfterEdits({ kind: "format" });
@@ -210,6 +213,12 @@ export class Studio implements ViewHost {
       this.setScene(`Duplicate ${kind} ${index + 1}`, duplicateTarget(this.scene.value, kind, index));
       this.select({ kind, index: countOf(this.scene.value, kind) - 1 });
     });
+  }
+
+  async dropFavourite(favourite: number): Promise<void> {
+    if (!(await this.ask({ kind: "drop_favourite", favourite }))) return;
+    const run = () => void this.ask({ kind: "restore_favourite", favourite });
+    this.tell("A favourite was dropped.", false, { action: { words: "Take it back", run } });
   }
 
   /** The name that the file got, or null. */

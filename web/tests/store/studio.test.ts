@@ -481,7 +481,30 @@ describe("painting", () => {
   });
 });
 
+describe("favourites", () => {
+  test("that were dropped can be taken back for a while", async () => {
+    const bench = await new Bench().open();
+    const dropped = bench.studio.dropFavourite(7);
+    await bench.answer("drop_favourite");
+    await dropped;
+    bench.clock.advance(10000);
+    bench.studio.state.notices.value.at(-1)!.action!.run();
+    expect(bench.socket.sent.at(-1)).toMatchObject({ kind: "restore_favourite", favourite: 7 });
+    bench.clock.advance(10000);
+    expect(bench.studio.state.notices.value).toEqual([]);
+  });
+});
+
 describe("the log", () => {
+  test("has what notices said, after they went", async () => {
+    const bench = await new Bench().open();
+    bench.studio.tell("good");
+    bench.studio.tell("bad", true);
+    bench.clock.advance(10000);
+    expect(bench.studio.state.notices.value).toEqual([]);
+    expect(bench.studio.state.log.value).toMatchObject([{ level: "info", text: "good" }, { level: "error", text: "bad" }]);
+  });
+
   test("keeps the newest lines", async () => {
     const bench = await new Bench().open();
     for (let i = 0; i < 700; ++i) bench.socket.say({ kind: "log", level: "info", text: `line ${i}` });
