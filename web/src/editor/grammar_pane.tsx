@@ -17,11 +17,14 @@ export function GrammarPane() {
     const { state } = studio;
     const hasProject = computed(() => studio.document.value !== null);
     const bursts = new TypingBursts();
-    let reveal = false;
-    const ownHistory = (action: () => void) => () => {
+    /** Steps back and forth that are asked for here and not answered: the cursor goes to what they change. */
+    let steps = 0;
+    const ownHistory = (action: () => Promise<boolean>) => () => {
       bursts.end();
-      reveal = true;
-      action();
+      steps += 1;
+      void action().finally(() => {
+        steps -= 1;
+      });
     };
     const made = new Editor(place.current!, studio.grammar.peek(), {
       symbols: () => state.checked.peek()?.symbols ?? [],
@@ -42,8 +45,7 @@ export function GrammarPane() {
       effect(() => {
         const text = studio.grammar.value;
         if (text === made.text()) return;
-        made.setText(text, reveal);
-        reveal = false;
+        made.setText(text, steps > 0);
       }),
       effect(() => made.setReadOnly(!hasProject.value)),
       effect(() => {

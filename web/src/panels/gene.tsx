@@ -22,7 +22,7 @@ export function GenePanel() {
           <Icon name="rule" />{gene.rule}
         </button>
         <button type="button" class={gene.locked ? "button lock on" : "button lock"} aria-pressed={gene.locked} disabled={stale} onClick={() => void studio.genes.setLock(!gene.locked)} title="Keep it with all that stands on it (L)">
-          <Icon name={gene.locked ? "lock" : "unlock"} />{gene.locked ? "Locked" : "Lock"}
+          <Icon name={gene.locked ? "lock" : "unlock"} />Lock
         </button>
       </div>
       <p class="gene-path" title={gene.path}>{gene.path}</p>

@@ -49,3 +49,20 @@ describe("the rule under the cursor", () => {
     expect(state.cursorRule.value).toBeNull();
   });
 });
+
+describe("undo in the editor", () => {
+  test("goes to the text that it changed, and what changes the text later does not", async () => {
+    const bench = await open();
+    const content = root.querySelector(".grammar-editor")!.shadowRoot!.querySelector(".cm-content")!;
+    const undo = () => void content.dispatchEvent(new KeyboardEvent("keydown", { key: "z", ctrlKey: true, bubbles: true, cancelable: true }));
+    undo();
+    bench.socket.say(documentOf(2, text, { seed: 2 }));
+    await bench.answer("undo");
+    bench.socket.say(documentOf(3, `${text}rule Stem2 { }\n`));
+    expect(bench.studio.state.cursorRule.value).toBeNull();
+    undo();
+    bench.socket.say(documentOf(4, `${text}rule Other { }\n`));
+    await bench.answer("undo");
+    expect(bench.studio.state.cursorRule.value).toBe("Other");
+  });
+});
