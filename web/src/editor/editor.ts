@@ -73,12 +73,6 @@ export class Editor {
     if (focus) this.view.focus();
   }
 
-  insertLine(at: number, line: string): void {
-    const before = at > 0 && this.view.state.sliceDoc(at - 1, at) !== "\n" ? "\n" : "";
-    const insert = `${before}${line}\n`;
-    this.view.dispatch({ changes: { from: at, insert }, selection: { anchor: at + insert.length - 1 }, scrollIntoView: true });
-  }
-
   /** Without a project there is nothing that could be typed. */
   setReadOnly(readOnly: boolean): void {
     this.view.dispatch({ effects: this.access.reconfigure(EditorState.readOnly.of(readOnly)) });

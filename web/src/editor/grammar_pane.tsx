@@ -10,7 +10,6 @@ import { useStudio } from "../shell/studio_context";
 export function GrammarPane() {
   const studio = useStudio();
   const place = useRef<HTMLDivElement>(null);
-  const editor = useRef<Editor | null>(null);
   const [over, setOver] = useState(false);
 
   useEffect(() => {
@@ -40,7 +39,6 @@ export function GrammarPane() {
         studio.format();
       },
     });
-    editor.current = made;
     const stops = [
       effect(() => {
         const text = studio.grammar.value;
@@ -75,7 +73,7 @@ export function GrammarPane() {
     event.stopPropagation();
     const good = files.filter((file) => isMeshFile(file.name));
     if (good.length < files.length) studio.tell("Only OBJ, GLB, PLY and STL files can be dropped here.", true);
-    void addMeshFiles(studio, good, (at, line) => editor.current?.insertLine(at, line), () => editor.current?.text() ?? "");
+    void addMeshFiles(studio, good);
   };
 
   return (
