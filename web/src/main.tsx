@@ -3,7 +3,7 @@ import { render } from "preact";
 import { Files } from "./connection/files";
 import { placeOf, projectOf, sessionOf, socketAddress, tokenOf } from "./connection/link";
 import type { Socket } from "./connection/connection";
-import { App } from "./shell/app";
+import { App } from "./page/app";
 import { keptPreferences } from "./store/preferences";
 import { Studio } from "./store/studio";
 import "./styles/theme.css";

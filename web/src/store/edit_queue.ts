@@ -4,6 +4,9 @@ import { computed, effect, signal } from "@preact/signals";
 import type { Scene } from "../api";
 import { ConnectionLost } from "../connection/connection";
 
+/** Milliseconds without a key before typed text is sent. */
+export const kTypingPause = 150;
+
 export interface DocumentEdit {
   label: string;
   gesture?: string;

@@ -8,7 +8,7 @@ import { Room } from "../breeding/room";
 import type { Look, ViewHost } from "../view/host";
 import { MessageError } from "../view/messages";
 import { applyBinary, applyMessage } from "./apply_message";
-import { EditQueue } from "./edit_queue";
+import { EditQueue, kTypingPause } from "./edit_queue";
 import { Genes } from "./genes";
 import { ParkedEdits, type Parking } from "./parked_edits";
 import type { Preferences } from "./preferences";
@@ -40,8 +40,6 @@ export interface StudioOptions {
   random(): number;
 }
 
-/** Milliseconds without a key before typed text is sent. */
-export const kTypingPause = 150;
 const kNoticeMilliseconds = 5000;
 /** Of notices that something can be done about. */
 const kOfferMilliseconds = 15000;

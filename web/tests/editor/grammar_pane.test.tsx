@@ -3,7 +3,7 @@ import { render } from "preact";
 import { act } from "preact/test-utils";
 import { afterEach, describe, expect, test } from "vitest";
 import { GrammarPane } from "../../src/editor/grammar_pane";
-import { SHORTCUTS } from "../../src/shell/shortcuts";
+import { SHORTCUTS } from "../../src/page/shortcuts";
 import { StudioContext } from "../../src/shell/studio_context";
 import { Bench, documentOf } from "../fakes";
 

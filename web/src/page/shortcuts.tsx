@@ -5,10 +5,10 @@ import { runRoomAction } from "../breeding/run_action";
 import type { Side, Tool } from "../view/host";
 import type { Studio } from "../store/studio";
 import { countOf } from "../store/scene";
-import { Dialog } from "./dialog";
+import { Dialog } from "../shell/dialog";
 import { keepFavourite } from "../panels/keep_favourite";
-import { useStudio } from "./studio_context";
-import { currentView } from "./view_access";
+import { useStudio } from "../shell/studio_context";
+import { currentView } from "../shell/view_access";
 
 export interface Shortcut {
   /** As a KeyboardEvent has it: "z", "F8", "?". */

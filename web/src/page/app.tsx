@@ -13,8 +13,8 @@ import { TargetsPanel } from "../panels/targets";
 import { PREFERENCE_DEFAULTS } from "../store/preferences";
 import type { Studio } from "../store/studio";
 import { listenForShortcuts, ShortcutsDialog } from "./shortcuts";
-import { Splitter } from "./splitter";
-import { StudioContext, useStudio } from "./studio_context";
+import { Splitter } from "../shell/splitter";
+import { StudioContext, useStudio } from "../shell/studio_context";
 import { Toolbar } from "./toolbar";
 import { ViewPane } from "./view_pane";
 
