@@ -272,7 +272,7 @@ void declare_studio(CLI::App& app, CommandLine& line) {
   CLI::App* verb = app.add_subcommand("studio", "Serve the editor: a page where you draw and the model follows");
   StudioOptions& o = line.studio;
   verb->add_option("project", o.project, "Name of a project, made if there is none; or a file to begin a new one with: a scene (.toml), "
-                  "a grammar (.esp), a whole project (.espalier)");
+                  "a grammar (.esp), a whole project (.espalier), the zip file of a scene folder");
   verb->add_option("--port", o.port, "Of 127.0.0.1; 0: any that is free (7411)");
   verb->add_flag("!--no-open", o.open, "Print the link, open no browser");
   verb->add_flag("--new-token", o.new_token, "Make a new link: those of earlier starts are not served any more");

@@ -67,7 +67,7 @@ void open_browser(const std::string& link) {
 
 /// A project file, a scene or a grammar is taken in as a new project; anything else is the name of one.
 std::int64_t project_of(studio::Studio& studio, const std::string& named) {
-  if (named.ends_with(".espalier")) return studio.import(read_file(named, studio::kMostProjectFileBytes));
+  if (named.ends_with(".espalier") || named.ends_with(".zip")) return studio.import(read_file(named, studio::kMostProjectFileBytes));
   const auto read = [](const std::string& path) { return read_file(path, studio::Store::kMostFileBytes); };
   const std::string name = fs::path(named).stem().string();
   if (named.ends_with(".toml")) return studio.add(name, studio::project_of_scene(named, read));

@@ -5,6 +5,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "studio/file_kind.h"
@@ -49,6 +50,11 @@ bool draws_bones(std::string_view grammar) { return grammar.find("bone ") != std
 std::string read_text(const std::string& path, const ReadPath& read) {
   std::string text = read(path);
   if (text.size() > kMostTextBytes) throw Error(fmt::format("{}: must have at most {} bytes", path, kMostTextBytes));
+  try {  // messages to pages are JSON
+    nlohmann::json(text).dump();
+  } catch (const nlohmann::json::exception&) {
+    throw Error(fmt::format("{}: must be UTF-8", path));
+  }
   return text;
 }
 

@@ -12,6 +12,7 @@
 #include "studio/export_model.h"
 #include "studio/picture_type.h"
 #include "studio/project_file.h"
+#include "studio/scene_zip.h"
 #include "studio/shipped.h"
 #include "studio/web_guard.h"
 
@@ -317,7 +318,7 @@ std::int64_t Studio::add(const std::string& name, const NewProject& content) {
 }
 
 std::int64_t Studio::import(std::string_view text) {
-  const WholeProject project = parse_project_file(text);
+  const WholeProject project = is_zip(text) ? project_of_zip(text) : parse_project_file(text);
   const std::int64_t id = store_.create(project.name, project.content.state, project.content.blobs);
   store_.set_shown(id, project.shown);
   for (const StoredFavourite& favourite : project.favourites) store_.add_favourite(id, favourite);

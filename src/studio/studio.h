@@ -37,7 +37,7 @@ class Studio final : public WebApp {
   std::int64_t find_or_create(const std::string& name);
   /// A new project; returns its number. Throws Error.
   std::int64_t add(const std::string& name, const NewProject& content);
-  /// Takes in a project file; returns its number. Throws Error.
+  /// Takes in a project file, or a scene folder in a zip file; returns its number. Throws Error.
   std::int64_t import(std::string_view text);
 
  private:

@@ -101,6 +101,8 @@ TEST(SceneProject, FaultsNameTheirFiles) {
   EXPECT_THAT(fault_of("s.toml", disk), HasSubstr("s.toml"));
   disk["lost.obj"] = "no mesh";
   EXPECT_THAT(fault_of("a.esp", disk), HasSubstr("lost.obj"));
+  disk["a.esp"] = "grammar a 1\n# \xff\n";
+  EXPECT_THAT(fault_of("a.esp", disk), HasSubstr("a.esp: must be UTF-8"));
   disk["a.esp"] = std::string(1'000'001, ' ');
   EXPECT_THAT(fault_of("a.esp", disk), HasSubstr("at most"));
 }

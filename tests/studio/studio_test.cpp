@@ -455,6 +455,21 @@ TEST_F(StudioTest, ExportsAreRunAndReproduced) {
   const std::string program = std::string("'") + ESPALIER_PROGRAM + "' ";
   EXPECT_EQ(run(program + "run out/my-tree/scene.toml --generations 3 --set 'output.picture=[64,48]' --out ran"), 0) << read_file(folder_.file("log.txt"));
   EXPECT_EQ(run(program + "reproduce out/my-tree/best.derivation.json"), 0) << read_file(folder_.file("log.txt"));
+
+  // What went out comes in again, with the model.
+  const Answer imported = http("POST /projects/import", zip.body);
+  ASSERT_EQ(imported.status, 200) << imported.body;
+  const json genes = page.seen["shown"]["genes"], scene = page.seen["document"]["scene"], grammar = page.seen["document"]["grammar"];
+  page.seen.erase("shown");
+  EXPECT_EQ(page.ask("open_project", {{"project", std::stoi(imported.body)}}), "");
+  ASSERT_TRUE(page.wait_for("shown"));
+  EXPECT_EQ(page.seen["document"]["project"]["name"], "my-tree");
+  EXPECT_EQ(page.seen["document"]["grammar"], grammar);
+  EXPECT_EQ(page.seen["document"]["scene"]["curves"]["curve"][0]["points"], scene["curves"]["curve"][0]["points"]);
+  EXPECT_EQ(page.seen["shown"]["genes"], genes);
+  ASSERT_TRUE(page.wait_for("checked", [](const json& checked) { return checked["revision"] == 1; }));
+  EXPECT_FALSE(page.seen["checked"].contains("scene_problem")) << page.seen["checked"];
+  EXPECT_EQ(http("POST /projects/import", zip.body.substr(0, zip.body.size() / 2)).status, 400);
 }
 
 /// Of the picture of the newest favourite.

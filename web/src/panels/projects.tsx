@@ -17,7 +17,7 @@ export function ProjectsDialog() {
   const [name, setName] = useState("");
   const create = (sample?: string, title?: string) => void studio.projects.create(name.trim() || title || "Untitled", sample);
   const importFile = async () => {
-    const file = await pickFile(".espalier");
+    const file = await pickFile(".espalier,.zip");
     if (file !== null) await studio.projects.import(file);
   };
   return (
@@ -29,7 +29,7 @@ export function ProjectsDialog() {
           <ul class="project-list">
             {projects.map((project) => <ProjectRow key={project.id} project={project} onOpened={close} />)}
           </ul>
-          <button type="button" class="text-button" onClick={() => void importFile()}title="A project file, or the zip file of a scene folder">Import a project or a scene</button>
+          <button type="button" class="text-button" onClick={() => void importFile()} title="A project file, or the zip file of a scene folder">Import a project or a scene</button>
         </section>
         <section aria-labelledby="projects-new">
           <h3 id="projects-new">New</h3>
