@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 #include "breed/screen.h"
 #include "breed/species.h"
 #include "studio/breeding_settings.h"
+#include "studio/breeding_store.h"
 
 namespace espalier::studio {
 namespace {
@@ -20,6 +22,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 3> kKinds = {"first", "bred", "like"};
 constexpr std::size_t kMostParents = 1000, kMostOpinions = 2000;
+
+double rating_in(const Json& json) {
+  const double rating = json.get<double>();
+  if (!(std::abs(rating) <= kMostRating)) throw Error(fmt::format("a rating must be {} .. {}", -kMostRating, kMostRating));
+  return rating;
+}
 
 /// The parents as members; `lost`: how many the grammar has no place for, and why the last of them.
 std::vector<Member> members_of(const BreedingBench& bench, const BreedingRecipe& recipe, const ReadText& read_text,
@@ -96,18 +104,23 @@ BreedingRecipe parse_recipe(std::string_view text) {
     recipe.seed = json.at("seed").get<std::uint64_t>();
     recipe.number = json.at("number").get<std::uint32_t>();
     recipe.first_id = json.at("first_id").get<std::int64_t>();
+    if (recipe.number < 1 || recipe.number > BreedingStore::kMostGenerations)
+      throw Error(fmt::format("its number must be 1 .. {}, got {}", BreedingStore::kMostGenerations, recipe.number));
+    if (recipe.first_id < 1 || recipe.first_id > BreedingStore::kMostIndividuals)
+      throw Error(fmt::format("its first individual must be 1 .. {}, got {}", BreedingStore::kMostIndividuals, recipe.first_id));
     recipe.locked = read_locked(json.at("locked").get<std::string>());
     if (json.at("parents").size() > kMostParents) throw Error(fmt::format("it has more than {} parents", kMostParents));
     for (const Json& item : json.at("parents")) {
       RecipeParent parent{item.at("id").get<std::int64_t>(), item.at("derivation").get<std::string>(), {}};
-      if (item.contains("rating")) parent.rating = item.at("rating").get<double>();
+      if (item.contains("rating")) parent.rating = rating_in(item.at("rating"));
       recipe.parents.push_back(std::move(parent));
     }
+    if (recipe.parents.empty() && recipe.kind != RecipeKind::first) throw Error("it has no parents");
     for (const char* list : {"opinions", "comparisons"}) {
       if (json.contains(list) && json.at(list).size() > kMostOpinions)
         throw Error(fmt::format("it has more than {} {}", kMostOpinions, list));
     }
-    for (const Json& one : json.value("opinions", Json::array())) recipe.opinions.push_back({one.at(0), one.at(1)});
+    for (const Json& one : json.value("opinions", Json::array())) recipe.opinions.push_back({one.at(0), rating_in(one.at(1))});
     for (const Json& one : json.value("comparisons", Json::array()))
       recipe.comparisons.push_back({one.at(0), one.at(1)});
     return recipe;

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <exception>
 
+#include "studio/quietly.h"
+
 namespace espalier::studio {
 
 LiveSearch::LiveSearch(ReadBlob read_blob, LiveListener& listener, std::string shown)
@@ -72,7 +74,7 @@ void LiveSearch::run(std::string shown) {
       if (wishes.any()) work->handle(wishes);
       if (work->running()) work->slice();
     } catch (const std::exception& error) {
-      work->give_up(error.what());
+      quietly([&] { work->give_up(error.what()); });
     }
   }
 }
