@@ -88,6 +88,7 @@ std::string to_json(const BreedingRecipe& recipe) {
     if (parent.rating) item["rating"] = *parent.rating;
     json["parents"].push_back(std::move(item));
   }
+  if (!recipe.worst_before.empty()) json["worst_before"] = recipe.worst_before;
   for (const RecipeOpinion& one : recipe.opinions) json["opinions"].push_back({one.derivation, one.rating});
   for (const RecipeComparison& one : recipe.comparisons) json["comparisons"].push_back({one.better, one.worse});
   return json.dump();
@@ -116,6 +117,9 @@ BreedingRecipe parse_recipe(std::string_view text) {
       recipe.parents.push_back(std::move(parent));
     }
     if (recipe.parents.empty() && recipe.kind != RecipeKind::first) throw Error("it has no parents");
+    const Json before = json.value("worst_before", Json::array());
+    if (before.size() > BreedingStore::kMostGenerations) throw Error("it remembers more generations than there are");
+    for (const Json& one : before) recipe.worst_before.push_back(rating_in(one));
     for (const char* list : {"opinions", "comparisons"}) {
       if (json.contains(list) && json.at(list).size() > kMostOpinions)
         throw Error(fmt::format("it has more than {} {}", kMostOpinions, list));
@@ -195,7 +199,7 @@ MadeGeneration make_generation(BreedingBench& bench, const BreedingRecipe& recip
                                      screen.generation.refused));
     if (!screen.generation.note.empty()) made.notes.push_back(screen.generation.note);
   } else {
-    NextGeneration next = next_generation(problem, settings, parents, recipe.number, first_id);
+    NextGeneration next = next_generation(problem, settings, parents, recipe.number, first_id, recipe.worst_before);
     made.members = std::move(next.members);
     if (next.refused > 0) made.notes.push_back(fmt::format("{} of {} children were refused", next.refused, next.tried));
     if (!next.note.empty()) made.notes.push_back(std::move(next.note));
