@@ -77,6 +77,38 @@ MadeGeneration relatives(BreedProblem problem, const BreedingRecipe& recipe, con
   return made;
 }
 
+/// The founders, relatives of each on two of three of the other places, and on the rest what the grammar grows else.
+MadeGeneration first_screen(const BreedProblem& problem, const BreedSettings& settings, MemberId first_id,
+                            const std::vector<Member>& parents) {
+  std::vector<Derivation> founders;
+  for (const Member& parent : parents) founders.push_back(parent.derivation);
+  const std::size_t own = std::min<std::size_t>(founders.size(), settings.population);
+  std::vector<std::size_t> kin_of;  // of each relative, the founder
+  const std::size_t kin = own == 0 ? 0 : (settings.population - own) * 2 / 3;
+  for (std::size_t f = 0; f < own && kin > 0; ++f) {
+    SpeciesSettings wanted;
+    wanted.count = static_cast<std::uint32_t>(kin / own + (f < kin % own));
+    wanted.strength = settings.strength;
+    if (wanted.count == 0) break;
+    BreedProblem of_founder = problem;
+    of_founder.draw = static_cast<std::uint32_t>(f);
+    for (Derivation& sibling : find_species(of_founder, parents[f].derivation, wanted).siblings) {
+      founders.push_back(std::move(sibling));
+      kin_of.push_back(f);
+    }
+  }
+  FirstGeneration first = first_generation(problem, settings, founders, first_id);
+  for (std::size_t i = 0; i < kin_of.size(); ++i) {
+    Member& relative = first.members[parents.size() + i];
+    relative.origin = Origin::sibling;
+    relative.parents = {first.members[kin_of[i]].id};
+  }
+  MadeGeneration made;
+  made.members = std::move(first.members);
+  if (!first.note.empty()) made.notes.push_back(std::move(first.note));
+  return made;
+}
+
 }  // namespace
 
 std::string to_json(const BreedingRecipe& recipe) {
@@ -180,11 +212,9 @@ MadeGeneration make_generation(BreedingBench& bench, const BreedingRecipe& recip
   if (lost > 0) made.notes.push_back(fmt::format("{} of {} parents: {}", lost, recipe.parents.size(), why));
   if (parents.empty() && !recipe.parents.empty()) throw Error(why);
   if (recipe.kind == RecipeKind::first) {
-    std::vector<Derivation> founders;
-    for (const Member& parent : parents) founders.push_back(parent.derivation);
-    FirstGeneration first = first_generation(problem, settings, founders, first_id);
+    MadeGeneration first = first_screen(problem, settings, first_id, parents);
     made.members = std::move(first.members);
-    if (!first.note.empty()) made.notes.push_back(std::move(first.note));
+    made.notes.insert(made.notes.end(), first.notes.begin(), first.notes.end());
   } else if (recipe.kind == RecipeKind::like) {
     MadeGeneration kin = relatives(problem, recipe, settings, parents.at(0));
     made.members = std::move(kin.members);

@@ -239,6 +239,15 @@ TEST_F(BreedingTest, AFavouriteIsKeptAndShownAndBredFrom) {
   const std::string model = page.models[id];
   ASSERT_EQ(begin(page, json::object(), "favourites"), "");
   EXPECT_EQ(page.models[page.ids()[0]].substr(56), model.substr(56)) << "a founder comes first, as it is";
+  std::size_t relatives = 0;
+  for (const json& one : page.breeding()["individuals"]) {
+    if (one["origin"] != "sibling") continue;
+    ++relatives;
+    EXPECT_EQ(one["parents"], json::array({page.ids()[0]}));
+  }
+  EXPECT_EQ(relatives, 7u) << "two thirds of the other 11 places";
+  const std::string project = std::to_string(page.seen["document"]["project"]["id"].get<int>());
+  EXPECT_EQ(http("GET /projects/" + project + "/breeding/2/replay").body, "1 generation with 12 individuals came out the same\n");
   ASSERT_EQ(begin(page, json::object(), "shown"), "");
   EXPECT_EQ(page.models[page.ids()[0]].substr(56), model.substr(56));
 }
