@@ -33,6 +33,7 @@ void BreedingBench::take(const StoredState& state) {
   scorer_.reset();
   setup_ = std::move(setup);
   has_targets_ = bench_.scene().has_targets;
+  genesis_bits_ = bench_.scene().scene.search.genesis.bits;
   state_ = state;
   usual_is_exact_ = false;
   features_.clear();

@@ -33,6 +33,8 @@ class BreedingBench {
   const std::shared_ptr<const Setup>& setup() const { return setup_; }
   const GeneratorGraph& graph() const { return setup_->graph(); }
   bool has_targets() const { return has_targets_; }
+  /// Per gene, as the scene wants them of Genesis; none: by the kinds of the draws.
+  const std::vector<std::uint32_t>& genesis_bits() const { return genesis_bits_; }
   const StoredState& state() const { return state_; }
   std::string as_named(const std::string& text) const { return bench_.as_named(text); }
 
@@ -63,6 +65,7 @@ class BreedingBench {
   StoredState state_;
   std::shared_ptr<const Setup> setup_;
   bool has_targets_ = false;  // the setup
+  std::vector<std::uint32_t> genesis_bits_;
   std::optional<ViabilitySettings> usual_;  // of ...
   std::string usual_of_;                    // this text
   bool usual_is_exact_ = false;             // and of this very state

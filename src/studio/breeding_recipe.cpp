@@ -206,7 +206,8 @@ MadeGeneration make_generation(BreedingBench& bench, const BreedingRecipe& recip
   std::string why;
   const std::vector<Member> parents = members_of(bench, recipe, read_text, lost, why);
   const BreedProblem problem = bench.problem(recipe.settings, recipe.seed, recipe.locked);
-  const BreedSettings settings = breed_settings(recipe.settings);
+  BreedSettings settings = breed_settings(recipe.settings);
+  settings.genesis.bits = bench.genesis_bits();
   const auto first_id = static_cast<MemberId>(recipe.first_id);
   MadeGeneration made;
   if (lost > 0) made.notes.push_back(fmt::format("{} of {} parents: {}", lost, recipe.parents.size(), why));

@@ -3,7 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include "base/executor.h"
+#include "search/genesis_encoding.h"
+#include "studio/breeding_bench.h"
 #include "studio/breeding_fixture.h"
+#include "studio/shipped.h"
 
 namespace espalier::studio {
 namespace {
@@ -183,6 +187,18 @@ TEST_F(BreedingTest, GenTreeIsBredAsItWas) {
   EXPECT_TRUE(elite);
   const auto other = project("city");
   EXPECT_THAT(begin(*other, {{"method", "classic"}}), HasSubstr("draws of the start rule"));
+}
+
+TEST(BreedingSample, GenTreeHasItsBits) {
+  const auto bits_of = [](const char* sample) {
+    const NewProject project = make_sample(sample);
+    const auto executor = make_serial_executor();
+    BreedingBench bench([&](const std::string& hash) { return project.blobs.at(hash); }, *executor);
+    bench.take(project.state);
+    return GenesisEncoding(bench.graph(), bench.genesis_bits(), true).length();
+  };
+  EXPECT_EQ(bits_of("gentree"), 82u);
+  EXPECT_GT(bits_of("gentree-natural"), 82u);
 }
 
 TEST_F(BreedingTest, ManyTabsSeeTheSameSession) {
