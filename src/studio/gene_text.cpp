@@ -39,6 +39,13 @@ std::string path_of(const ShownModel& shown, std::int64_t gene) {
   return format_gene_path(graph, gene_path(graph, shown.derivation, at.gene));
 }
 
+std::int64_t gene_at(const ShownModel& shown, const std::string& path) {
+  const GeneratorGraph& graph = shown.setup->graph();
+  const std::optional<std::uint32_t> gene = find_gene(graph, shown.derivation, parse_gene_path(graph, path));
+  if (!gene) throw Error(fmt::format("model {} has no gene {}", shown.number, path));
+  return *gene;
+}
+
 api::Gene gene_text(const ShownModel& shown, std::int64_t gene) {
   const GenePosition at = position_of(shown, gene);
   const GeneratorGraph& graph = shown.setup->graph();

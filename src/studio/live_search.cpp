@@ -26,13 +26,15 @@ void LiveSearch::wish(bool leaves_search) {
   changed_.notify_all();
 }
 
-void LiveSearch::take(const StoredState& state, std::int64_t revision, LiveStart start, std::optional<std::string> model) {
+void LiveSearch::take(const StoredState& state, std::int64_t revision, LiveStart start, std::optional<std::string> model,
+                      std::optional<double> seconds) {
   const std::lock_guard lock(mutex_);
   wishes_.state = state;
   wishes_.revision = revision;
   if (model) wishes_.model = std::move(model);
   // An edit that asks for a search is not undone by one after it that does not.
-  if (!wishes_.start || start != LiveStart::keep) wishes_.start = start, wishes_.timed = false;
+  if (!wishes_.start || start != LiveStart::keep) wishes_.start = start, wishes_.timed = seconds.has_value();
+  if (seconds) wishes_.seconds = seconds, wishes_.stop = false;
   wish(true);
 }
 

@@ -20,8 +20,10 @@ class LiveSearch {
   LiveSearch(ReadBlob read_blob, LiveListener& listener, std::string shown);
   ~LiveSearch();
 
-  /// The project has come to this state. `model`: to be shown instead, as JSON.
-  void take(const StoredState& state, std::int64_t revision, LiveStart start, std::optional<std::string> model = {});
+  /// The project has come to this state. `model`: to be shown instead, as JSON. `seconds`: of the search that begins,
+  /// whatever the scene says.
+  void take(const StoredState& state, std::int64_t revision, LiveStart start, std::optional<std::string> model = {},
+            std::optional<double> seconds = {});
   /// Searches for so many seconds (more). Searches that `take` begins have the seconds of the scene's budget, else those of
   /// the last start.
   void start(LiveStart start, double seconds);

@@ -14,6 +14,8 @@
 namespace espalier::studio {
 namespace {
 
+constexpr std::size_t kMostDropped = 20;  // favourites that can be taken back
+
 template <class Message>
 std::string answer_text(Message message, std::optional<std::int64_t> number) {
   message.request = number;
@@ -38,10 +40,11 @@ void ProjectSession::answer(const WebSocketPtr& socket, const api::Request& requ
 }
 
 void ProjectSession::change(const StoredState& next, const StoredStep& step, LiveStart start,
-                            std::optional<std::string> model, const std::map<std::string, std::string>& blobs) {
+                            std::optional<std::string> model, const std::map<std::string, std::string>& blobs,
+                            std::optional<double> seconds) {
   // The search begins while the disk is written (an edit adds one to the revision); files it can read only from there.
   const bool early = blobs.empty();
-  if (early) live_->take(next, now_.revision + 1, start, model);
+  if (early) live_->take(next, now_.revision + 1, start, model, seconds);
   try {
     take_now(store_.edit(project_, next, step, blobs));
   } catch (...) {
@@ -67,12 +70,17 @@ void ProjectSession::act(const WebSocketPtr&, const api::Edit& edit) {
 
 void ProjectSession::moved(const std::optional<StoredMove>& move, const char* nothing) {
   if (!move) throw Error(nothing);
+  // A search that goes on would at once replace the model that is brought back.
+  if (move->model && !move->search) live_->stop();
   live_->take(move->now.state, move->now.revision, move->search ? LiveStart::shown : LiveStart::keep, move->model);
   take_now(move->now);
   send_document();
 }
 
-void ProjectSession::act(const WebSocketPtr&, const api::Undo&) { moved(store_.undo(project_), "there is nothing to undo"); }
+void ProjectSession::act(const WebSocketPtr&, const api::Undo&) {
+  const ShownModelPtr model = shown();
+  moved(store_.undo(project_, model ? std::optional(model->encoded) : std::nullopt), "there is nothing to undo");
+}
 void ProjectSession::act(const WebSocketPtr&, const api::Redo&) { moved(store_.redo(project_), "there is nothing to do again"); }
 
 void ProjectSession::act(const WebSocketPtr&, const api::RemoveFile& remove) {
@@ -84,8 +92,12 @@ void ProjectSession::act(const WebSocketPtr&, const api::RemoveFile& remove) {
 
 void ProjectSession::act(const WebSocketPtr&, const api::StartSearch& start) {
   LiveStart from = start.from == api::StartSearchFrom::shown ? LiveStart::shown : LiveStart::nothing;
-  if (start.onward.value_or(false)) from = LiveStart::onward;
-  live_->start(from, start.seconds);
+  const ShownModelPtr before = shown();
+  if (start.onward.value_or(false) || !before) {
+    return live_->start(start.onward.value_or(false) ? LiveStart::onward : from, start.seconds);
+  }
+  // What it finds may be worse than what is shown: undo brings that back.
+  change(now_.state, {.label = "Search", .model_before = before->encoded}, from, {}, {}, start.seconds);
 }
 
 void ProjectSession::act(const WebSocketPtr&, const api::StopSearch&) { live_->stop(); }
@@ -99,7 +111,9 @@ ShownModelPtr ProjectSession::find_model(std::int64_t number) const {
 }
 
 void ProjectSession::act(const WebSocketPtr& socket, const api::AskGene& ask) {
-  socket->out.push_text(answer_text(gene_text(*find_model(ask.model), ask.gene), ask.request));
+  if (ask.gene.has_value() == ask.path.has_value()) throw Error("ask_gene must have either gene or path");
+  const ShownModelPtr model = find_model(ask.model);
+  socket->out.push_text(answer_text(gene_text(*model, ask.path ? gene_at(*model, *ask.path) : *ask.gene), ask.request));
 }
 
 void ProjectSession::show_by_hand(const std::string& label, const std::string& gesture, const std::string& derivation) {
@@ -162,10 +176,22 @@ void ProjectSession::keep(StoredFavourite favourite) {
 
 void ProjectSession::act(const WebSocketPtr&, const api::DropFavourite& drop) {
   const auto is_it = [&](const StoredFavourite& one) { return one.id == drop.favourite; };
-  if (std::none_of(favourites_.begin(), favourites_.end(), is_it)) throw Error("there is no such favourite");
+  const auto found = std::find_if(favourites_.begin(), favourites_.end(), is_it);
+  if (found == favourites_.end()) throw Error("there is no such favourite");
   store_.remove_favourite(project_, drop.favourite);
-  std::erase_if(favourites_, is_it);
+  dropped_.push_back(std::move(*found));
+  if (dropped_.size() > kMostDropped) dropped_.pop_front();
+  favourites_.erase(found);
   send_document();
+}
+
+void ProjectSession::act(const WebSocketPtr&, const api::RestoreFavourite& restore) {
+  // Numbers are given again: the newest of that number.
+  const auto is_it = [&](const StoredFavourite& one) { return one.id == restore.favourite; };
+  const auto found = std::find_if(dropped_.rbegin(), dropped_.rend(), is_it);
+  if (found == dropped_.rend()) throw Error("there is no such favourite among those that were dropped last");
+  keep(*found);
+  dropped_.erase(std::prev(found.base()));
 }
 
 void ProjectSession::act(const WebSocketPtr&, const api::ShowFavourite& show) {

@@ -80,7 +80,7 @@ class ProjectSession final : private LiveListener, private RoomListener {
 
   // Requests, on the session's thread; what throws Error has changed nothing.
   void change(const StoredState& next, const StoredStep& step, LiveStart start, std::optional<std::string> model = {},
-              const std::map<std::string, std::string>& blobs = {});
+              const std::map<std::string, std::string>& blobs = {}, std::optional<double> seconds = {});
   void moved(const std::optional<StoredMove>& move, const char* nothing);
   void take_now(StoredProjectState now);
   ShownModelPtr find_model(std::int64_t number) const;
@@ -99,6 +99,7 @@ class ProjectSession final : private LiveListener, private RoomListener {
   void act(const WebSocketPtr& socket, const api::Format&);
   void act(const WebSocketPtr& socket, const api::KeepFavourite& keep);
   void act(const WebSocketPtr& socket, const api::DropFavourite& drop);
+  void act(const WebSocketPtr& socket, const api::RestoreFavourite& restore);
   void act(const WebSocketPtr& socket, const api::ShowFavourite& show);
   template <class Other>
   void act(const WebSocketPtr&, const Other&);
@@ -109,6 +110,7 @@ class ProjectSession final : private LiveListener, private RoomListener {
   // Of the session's thread alone.
   StoredProjectState now_;
   std::vector<StoredFavourite> favourites_;
+  std::deque<StoredFavourite> dropped_;  // of them, the last that were
   DocumentCheck check_;
   ReachQueue reach_;
 

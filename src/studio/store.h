@@ -50,7 +50,8 @@ struct StoredStep {
   std::string label = {};
   std::string gesture = {};  // steps of one gesture in a row are one; empty: it stands alone
   bool search = false;  // the search began anew with it
-  std::optional<std::string> model_before = {}, model_after = {};  // derivations, where it was made by hand
+  /// Derivations, where the step made another model. One that a search found since is known once undo leaves it.
+  std::optional<std::string> model_before = {}, model_after = {};
 };
 
 struct StoredProjectState {
@@ -103,8 +104,9 @@ class Store {
   /// The state is now this one. `blobs`: bytes by hash of files that are new.
   StoredProjectState edit(std::int64_t project, const StoredState& state, const StoredStep& step,
                           const std::map<std::string, std::string>& blobs = {});
-  /// Nothing where there is nothing to take back, or to do again.
-  std::optional<StoredMove> undo(std::int64_t project);
+  /// Nothing where there is nothing to take back, or to do again. `shown`: the model that was made since a step that
+  /// knows only the one before it (a search); redo brings it back.
+  std::optional<StoredMove> undo(std::int64_t project, const std::optional<std::string>& shown = {});
   std::optional<StoredMove> redo(std::int64_t project);
   std::string blob(std::int64_t project, const std::string& hash);
 
@@ -144,7 +146,7 @@ class Store {
   void trim(std::int64_t project);
   void touch(std::int64_t project, std::int64_t number);
   StoredProjectState read(std::int64_t project);
-  std::optional<StoredMove> move(std::int64_t project, bool back);
+  std::optional<StoredMove> move(std::int64_t project, bool back, const std::optional<std::string>& shown);
   std::string free_name(const std::string& name);
 
   std::recursive_mutex mutex_;  // reading or writing much at once is made of reading and writing little

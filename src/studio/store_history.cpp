@@ -105,16 +105,23 @@ StoredProjectState Store::edit(std::int64_t project, const StoredState& state, c
   return result;
 }
 
-std::optional<StoredMove> Store::undo(std::int64_t project) { return move(project, true); }
-std::optional<StoredMove> Store::redo(std::int64_t project) { return move(project, false); }
+std::optional<StoredMove> Store::undo(std::int64_t project, const std::optional<std::string>& shown) {
+  return move(project, true, shown);
+}
+std::optional<StoredMove> Store::redo(std::int64_t project) { return move(project, false, {}); }
 
-std::optional<StoredMove> Store::move(std::int64_t project, bool back) {
+std::optional<StoredMove> Store::move(std::int64_t project, bool back, const std::optional<std::string>& shown) {
   const std::lock_guard lock(mutex_);
   Transaction transaction(*database_);
   const std::int64_t number = head(project).number, to = back ? number - 1 : number + 1;
   {
     Statement ask = database_->prepare("select 1 from step where project = ? and number = ?");
     if (!ask.bind(project).bind(to).step()) return std::nullopt;
+  }
+  if (shown) {
+    database_->prepare("update step set model_after = ? where project = ? and number = ? and model_before is not null "
+                       "and model_after is null")
+        .bind(keep_text(project, *shown)).bind(project).bind(number).run();
   }
   StoredMove move;
   std::optional<std::string> model;

@@ -147,6 +147,54 @@ TEST_F(StudioTest, ACurveIsFollowedAndTheSearchStopsAndGoesOn) {
   EXPECT_GE(page.seen["search_state"]["best"], stopped["best"]);
 }
 
+TEST_F(StudioTest, UndoBringsBackTheModelOfBeforeASearchAndRedoWhatItFound) {
+  ModelPage page = this->page();
+  page.ask("create_project", {{"name", "a"}});
+  page.wait_for_model();
+  page.ask("edit", {{"label", "Draw"}, {"scene", page.scene_with("curves", kCurves)}, {"search", true}});
+  const auto over = [](const json& state) { return state["steps"] > 0 && !state["running"]; };
+  ASSERT_TRUE(page.wait_for("search_state", over));
+  const auto model = [&] {
+    page.ask("keep_favourite");
+    const std::string path = "GET /projects/" + page.seen["document"]["project"]["id"].dump() + "/export/espalier";
+    return parse_project_file(http(path).body).favourites.back().derivation;
+  };
+  const std::string best = model();
+  page.ask("edit", {{"label", "Seed"}, {"scene", page.scene_with("seed", "77")}});
+  page.seen.erase("search_state");
+  EXPECT_EQ(page.ask("start_search", {{"seconds", 0.05}}), "");
+  EXPECT_EQ(page.seen["document"]["undo"], "Search");
+  ASSERT_TRUE(page.wait_for("search_state", over));
+  const std::string other = model();
+  ASSERT_NE(other, best);
+  // Also while another search goes on, which stops.
+  EXPECT_EQ(page.ask("start_search", {{"seconds", 1000}}), "");
+  EXPECT_EQ(page.ask("undo"), "");
+  ASSERT_TRUE(page.wait_for("search_state", [](const json& state) { return !state["running"]; }));
+  ASSERT_TRUE(page.wait_for_model());
+  EXPECT_EQ(model(), other);
+  EXPECT_EQ(page.ask("undo"), "");
+  ASSERT_TRUE(page.wait_for_model());
+  EXPECT_EQ(model(), best);
+  EXPECT_EQ(page.ask("redo"), "");
+  ASSERT_TRUE(page.wait_for_model());
+  EXPECT_EQ(model(), other);
+}
+
+TEST_F(StudioTest, AGeneIsAskedForByItsPathToo) {
+  ModelPage page = this->page();
+  page.ask("create_project", {{"name", "a"}});
+  page.wait_for_model();
+  const json model = page.seen["shown"]["model"];
+  EXPECT_EQ(page.ask("ask_gene", {{"path", "Plant/Stem"}, {"model", model}}), "");
+  EXPECT_EQ(page.seen["gene"]["gene"], 1);
+  EXPECT_EQ(page.seen["gene"]["path"], "Plant/Stem");
+  EXPECT_THAT(page.ask("ask_gene", {{"path", "Plant/Leaf"}, {"model", model}}), HasSubstr("Leaf"));
+  EXPECT_THAT(page.ask("ask_gene", {{"path", ""}, {"model", model}}), testing::Not(""));
+  EXPECT_THAT(page.ask("ask_gene", {{"model", model}}), HasSubstr("either gene or path"));
+  EXPECT_THAT(page.ask("ask_gene", {{"path", "Plant"}, {"gene", 0}, {"model", model}}), HasSubstr("either gene or path"));
+}
+
 TEST_F(StudioTest, ASearchThatAnEditBeginsTakesTheTimeOfTheScene) {
   ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}});
@@ -435,6 +483,16 @@ TEST_F(StudioTest, FavouritesHavePictures) {
   EXPECT_THAT(page.ask("keep_favourite", {{"picture", encode_base64(picture + std::string(32u << 10, 'x'))}}),
               HasSubstr("at most"));
   EXPECT_EQ(page.seen["document"]["favourites"].size(), 2u);
+
+  const json dropped = page.seen["document"]["favourites"][1];
+  EXPECT_EQ(page.ask("drop_favourite", {{"favourite", dropped["id"]}}), "");
+  EXPECT_EQ(page.seen["document"]["favourites"].size(), 1u);
+  EXPECT_EQ(page.ask("restore_favourite", {{"favourite", dropped["id"]}}), "");
+  EXPECT_EQ(page.seen["document"]["favourites"].size(), 2u);
+  EXPECT_EQ(page.seen["document"]["favourites"][1]["score"], dropped["score"]);
+  EXPECT_EQ(http(favourite_path(page.seen["document"])).body, picture);
+  EXPECT_EQ(page.ask("show_favourite", {{"favourite", page.seen["document"]["favourites"][1]["id"]}}), "");
+  EXPECT_THAT(page.ask("restore_favourite", {{"favourite", dropped["id"]}}), HasSubstr("no such favourite"));
 }
 
 TEST_F(StudioTest, PagesThatLeaveBeforeTheyCameInAreGone) {

@@ -1,5 +1,6 @@
 // Debian's Chromium, and pages with a mock server or a real one of their own.
 import { chromium, type Browser, type Page } from "playwright-core";
+import type { Message } from "../src/api";
 import { MockServer } from "../tests/mock_server.ts";
 import { Program } from "./program.ts";
 
@@ -14,6 +15,8 @@ export async function launch(): Promise<Browser> {
 
 export interface Opened {
   page: Page;
+  /** What the server said to the page, over reloads and lost connections too. */
+  heard: Message[];
   /** Errors and warnings of the browser's console, and what was thrown. */
   complaints: string[];
 }
@@ -28,8 +31,12 @@ export async function openPage(browser: Browser, url: string, size = { width: 12
     if (["error", "warning"].includes(message.type()) && !message.text().includes("GL Driver Message")) complaints.push(message.text());
   });
   page.on("pageerror", (error) => complaints.push(error.message));
+  const heard: Message[] = [];
+  page.on("websocket", (socket) => socket.on("framereceived", ({ payload }) => {
+    if (typeof payload === "string") heard.push(JSON.parse(payload) as Message);
+  }));
   await page.goto(url);
-  return { page, complaints };
+  return { page, heard, complaints };
 }
 
 export interface Studio extends Opened {
@@ -42,11 +49,11 @@ export interface Studio extends Opened {
 export async function openStudio(browser: Browser, size?: { width: number; height: number }, colorScheme?: "dark" | "light"): Promise<Studio> {
   const server = new MockServer();
   const url = await server.start();
-  const { page, complaints } = await openPage(browser, url, size, colorScheme);
+  const { page, heard, complaints } = await openPage(browser, url, size, colorScheme);
   await page.locator(".cm-content").waitFor();
   await page.locator(".project-button", { hasText: /Bonsai|Box/ }).waitFor();
   return {
-    page, server, url, complaints,
+    page, heard, server, url, complaints,
     close: async () => {
       await page.context().close();
       await server.stop();

@@ -2,12 +2,15 @@
 import { readFileSync } from "node:fs";
 import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from "vitest";
 import type { Browser, Page } from "playwright-core";
+import type { Message } from "../src/api";
+import { showNumber } from "../src/controls/number.ts";
 import { cursorAfter, grammarOf, launch, openProgram } from "./browser.ts";
 import type { Program } from "./program.ts";
 
 let browser: Browser;
 let program: Program;
 let page: Page;
+let heard: Message[];
 let complaints: string[];
 
 beforeAll(async () => {
@@ -15,7 +18,7 @@ beforeAll(async () => {
 });
 afterAll(() => browser.close());
 beforeEach(async () => {
-  ({ page, program, complaints } = await openProgram(browser));
+  ({ page, program, heard, complaints } = await openProgram(browser));
 });
 afterEach(async () => {
   await page.context().close();
@@ -29,17 +32,41 @@ async function begin(sample: string): Promise<void> {
 }
 
 const score = async () => Number((await page.locator(".objective output, .objective .score").first().innerText()).replace(/[^\d.-]/g, ""));
-const status = () => page.getByText(/\d+ parts/).innerText();
+/** What the model consists of, without the milliseconds of its last frame. */
+const status = async () => (await page.locator(".view-numbers").innerText()).split(" · ").slice(0, 3).join(" · ");
 const idle = () => page.locator(".search-button", { hasText: "Search" }).waitFor();
+
+type Kind = Message["kind"];
+const newest = <K extends Kind>(kind: K) => heard.findLast((one): one is Extract<Message, { kind: K }> => one.kind === kind);
+
+/** Until the server has said such a thing after `from` messages; what it said. The page may stall meanwhile, and see less. */
+async function hear<K extends Kind>(from: number, kind: K, passes: (message: Extract<Message, { kind: K }>) => boolean = () => true) {
+  const find = () => heard.slice(from).find((one): one is Extract<Message, { kind: K }> => one.kind === kind && passes(one as Extract<Message, { kind: K }>));
+  await expect.poll(() => find() !== undefined, { timeout: 90_000 }).toBe(true);
+  return find()!;
+}
+
+/** Until a search that was begun after `from` messages is over, and the page shows it. */
+async function searched(from: number): Promise<void> {
+  const began = heard.indexOf(await hear(from, "search_state", (state) => state.running));
+  const { evaluations } = await hear(began, "search_state", (state) => !state.running);
+  await expect.poll(async () => (await page.locator(".search-numbers").innerText()).replace(/\D/g, ""), { timeout: 90_000 }).toContain(String(evaluations));
+  await idle();
+}
+
+/** Where a place of the view is, given in its width and height. */
+async function inView([x, y]: [number, number]): Promise<[number, number]> {
+  const box = (await page.locator(".view-element canvas").first().boundingBox())!;
+  return [box.x + x * box.width, box.y + y * box.height];
+}
 
 /** Drags in the view, from and to given in its width and height. */
 async function drag(from: [number, number], to: [number, number], modifier?: string): Promise<void> {
-  const box = (await page.locator(".view-element canvas").first().boundingBox())!;
-  const at = ([x, y]: [number, number]): [number, number] => [box.x + x * box.width, box.y + y * box.height];
+  const [a, b] = [await inView(from), await inView(to)];
   if (modifier !== undefined) await page.keyboard.down(modifier);
-  await page.mouse.move(...at(from));
+  await page.mouse.move(...a);
   await page.mouse.down();
-  for (let i = 1; i <= 8; ++i) await page.mouse.move(...at([from[0] + ((to[0] - from[0]) * i) / 8, from[1] + ((to[1] - from[1]) * i) / 8]));
+  for (let i = 1; i <= 8; ++i) await page.mouse.move(a[0] + ((b[0] - a[0]) * i) / 8, a[1] + ((b[1] - a[1]) * i) / 8);
   await page.mouse.up();
   if (modifier !== undefined) await page.keyboard.up(modifier);
 }
@@ -64,14 +91,46 @@ test("a curve is drawn, the model follows; undo takes it back, a reload keeps it
   expect(await page.locator(".targets li").count()).toBe(3);
   await page.locator(".view-element").focus();
   await page.keyboard.press("c");
+  const before = heard.length;
   await drag([0.35, 0.75], [0.15, 0.45]);
   await page.locator(".targets li").nth(3).waitFor();
-  await page.locator(".search-button", { hasText: "Stop" }).waitFor();
+  const { revision } = await hear(before, "document", (document) => document.scene.curves?.curve.length === 4);
+  await hear(before, "shown", (shown) => (shown.revision ?? 0) >= revision);
   await idle();
   await page.reload();
   await page.locator(".targets li").nth(3).waitFor();
   await page.keyboard.press("Control+z");
   await page.locator(".targets li").nth(3).waitFor({ state: "detached" });
+  expect(complaints).toEqual([]);
+});
+
+test("a handle of a curve is dragged, and the model follows before it is let go of", async () => {
+  await begin("Guided bonsai");
+  await idle();
+  await page.locator(".view-element").focus();
+  await page.keyboard.press("c");
+  const end: [number, number] = [0.15, 0.45];
+  let from = heard.length;
+  await drag([0.35, 0.75], end, "Shift");
+  const drawn = await hear(from, "document", (document) => document.scene.curves?.curve.length === 4);
+  await searched(from);
+  const before = await score();
+  await page.keyboard.press("v");
+  from = heard.length;
+  await page.mouse.move(...(await inView(end)));
+  await page.mouse.down();
+  await page.mouse.move(...(await inView([0.2, 0.35])), { steps: 6 });
+  // The button is still down.
+  const points = (document: Extract<Message, { kind: "document" }>) => document.scene.curves!.curve[3]!.points;
+  const moved = await hear(from, "document", (document) => points(document)[3][1] !== points(drawn)[3][1]);
+  expect(points(moved)[0]).toEqual(points(drawn)[0]);
+  await hear(from, "shown", (shown) => (shown.revision ?? 0) >= moved.revision && shown.score !== undefined);
+  await expect.poll(score, { timeout: 90_000 }).not.toBe(before);
+  await page.mouse.up();
+  await expect.poll(async () => (await score()) === Number(showNumber(newest("shown")!.score!)), { timeout: 90_000 }).toBe(true);
+  // All of it is one step.
+  await page.keyboard.press("Control+z");
+  await hear(from, "document", (document) => document.revision > moved.revision && points(document)[3][1] === points(drawn)[3][1]);
   expect(complaints).toEqual([]);
 });
 
@@ -118,13 +177,13 @@ test("a mesh dropped on the grammar tells its size and triangles, and how it loo
     files.items.add(new File(["v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"], "chip.obj"));
     grammar.dispatchEvent(new DragEvent("drop", { dataTransfer: files, bubbles: true }));
   });
-  const notice = page.locator(".notice", { has: page.locator("img") });
-  await notice.waitFor();
-  expect(await notice.innerText()).toContain("4 triangles, 1 × 2 × 3 m");
+  // The notice goes by itself: what it said stands in the log.
+  await page.getByRole("tab", { name: "Log" }).click();
+  const line = page.locator(".log li", { has: page.locator("img") });
+  await line.waitFor();
+  expect(await line.innerText()).toContain("4 triangles, 1 × 2 × 3 m");
   expect(await grammarOf(page)).toContain('mesh chip = "chip.obj"');
   const width = (picture: string) => page.locator(picture).evaluate(async (image: HTMLImageElement) => (await image.decode(), image.naturalWidth));
-  expect(await width(".notice img")).toBe(128);
-  await page.getByRole("tab", { name: "Log" }).click();
   expect(await width(".log img")).toBe(128);
   await page.getByRole("tab", { name: "Files" }).click();
   expect(await width(".files img")).toBe(128);
@@ -135,14 +194,15 @@ test("a model is searched, a part locked, and what is exported is a model", asyn
   await begin("Spaceship");
   await idle();
   const before = await score();
+  const from = heard.length;
   await page.getByRole("button", { name: "Continue" }).click();
-  await idle();
+  await searched(from);
   expect(await score()).toBeGreaterThanOrEqual(before);
   await page.locator(".view-element").focus();
   const box = (await page.locator(".view-element canvas").first().boundingBox())!;
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   await page.getByRole("button", { name: "Lock", exact: true }).click();
-  await page.getByRole("button", { name: "Locked" }).waitFor();
+  await page.getByRole("button", { name: "Lock", exact: true, pressed: true }).waitFor();
   await page.getByRole("button", { name: "Export" }).click();
   const download = page.waitForEvent("download");
   await page.getByRole("menuitem", { name: /GLB/ }).click();
@@ -156,8 +216,9 @@ test("after kill -9 the page finds its server again, and nothing is lost", async
   await idle();
   await cursorAfter(page, "start Stem");
   await page.keyboard.type("\nconst kept = 1");
-  await page.getByRole("button", { name: "Undo: Edit grammar" }).waitFor();
   const text = await grammarOf(page);
+  expect(text).toContain("\nconst kept = 1");
+  await hear(0, "document", (document) => document.grammar === text);
   const port = program.port;
   await program.kill();
   await page.getByText("Connection lost.", { exact: false }).waitFor();

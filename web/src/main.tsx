@@ -3,7 +3,7 @@ import { render } from "preact";
 import { Files } from "./connection/files";
 import { placeOf, projectOf, sessionOf, socketAddress, tokenOf } from "./connection/link";
 import type { Socket } from "./connection/connection";
-import { App } from "./shell/app";
+import { App } from "./page/app";
 import { keptPreferences } from "./store/preferences";
 import { Studio } from "./store/studio";
 import "./styles/theme.css";
@@ -23,6 +23,7 @@ const studio = new Studio({
   openSocket: () => new WebSocket(socketAddress(address, token)) as Socket,
   files: new Files(address, token),
   preferences: keptPreferences(window.localStorage),
+  parking: window.sessionStorage,
   systemDark,
   firstProject: projectOf(address),
   firstSession: sessionOf(address),

@@ -86,7 +86,8 @@ export class Bench {
   readonly places: [project: number, session: number | null][] = [];
   readonly studio: Studio;
 
-  constructor(firstProject: number | null = null, firstSession: number | null = null) {
+  /** `parked`: what an earlier page left there. */
+  constructor(firstProject: number | null = null, firstSession: number | null = null, readonly parked = new Map<string, string>()) {
     this.studio = new Studio({
       openSocket: () => {
         const socket = new FakeSocket();
@@ -95,6 +96,11 @@ export class Bench {
       },
       files: new Files("http://127.0.0.1:1/", "t"),
       preferences: this.preferences,
+      parking: {
+        getItem: (key) => parked.get(key) ?? null,
+        setItem: (key, text) => void parked.set(key, text),
+        removeItem: (key) => void parked.delete(key),
+      },
       systemDark: signal(true),
       firstProject,
       firstSession,

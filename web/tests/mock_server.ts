@@ -4,7 +4,7 @@ import { existsSync, readFileSync } from "node:fs";
 import { createServer, type IncomingMessage, type ServerResponse } from "node:http";
 import { extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
-import type { Gene, Message, Request, SearchState, Shown } from "../src/api";
+import type { Document, Gene, Message, Request, SearchState, Shown } from "../src/api";
 import { boxMeshes, model } from "./mock/model.ts";
 import { MockProject } from "./mock/project.ts";
 import { MockRoom, type Voice } from "./mock/room.ts";
@@ -29,6 +29,7 @@ export class MockServer {
   private port = 0;
   private models = 0;
   private favourites = 0;
+  private readonly dropped: Document["favourites"][number][] = [];
   private locked = new Set<number>();
   private search: SearchState = { kind: "search_state", running: false, engine: "guided", steps: 0, evaluations: 0, seconds: 0, rises: [], onward: false };
   private timer: ReturnType<typeof setInterval> | null = null;
@@ -263,7 +264,7 @@ export class MockServer {
         this.say(socket, this.search);
         return done();
       case "ask_gene":
-        this.say(socket, this.gene(message.gene));
+        this.say(socket, this.gene(message.gene ?? message.path!.split("/Fork/").length - 1));
         return done();
       case "set_draw":
       case "set_lock":
@@ -276,7 +277,13 @@ export class MockServer {
         project.touch();
         this.broadcast(project);
         return done();
+      case "restore_favourite":
+        project.favourites = [...project.favourites, this.dropped.find((one) => one.id === message.favourite)!];
+        project.touch();
+        this.broadcast(project);
+        return done();
       case "drop_favourite":
+        this.dropped.push(...project.favourites.filter((one) => one.id === message.favourite));
         project.favourites = project.favourites.filter((one) => one.id !== message.favourite);
         project.touch();
         this.broadcast(project);

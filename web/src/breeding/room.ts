@@ -1,8 +1,8 @@
 // What a person can do in the breeding room.
 import { batch, computed, effect, signal, type Signal } from "@preact/signals";
 import type { BredGene, BredIndividual, DrawPlace, DrawSetting, Rating, RoomSettings, StartBreeding } from "../api";
+import { base64Of } from "../base/base64";
 import type { Ask } from "../connection/connection";
-import { base64Of } from "../panels/keep_favourite";
 import type { Studio } from "../store/studio";
 import { applyRoomBinary, applyRoomMessage, type RoomMessage } from "./apply_room";
 import { nudged } from "./barycentric";

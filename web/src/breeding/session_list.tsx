@@ -1,10 +1,10 @@
 // Sessions of the project: open, rename, delete, as a file and from one.
 import { useState } from "preact/hooks";
 import type { BreedingInfo } from "../api";
+import { agoWords } from "../base/ago_words";
 import { IconButton } from "../controls/fields";
 import { Icon } from "../controls/icons";
 import { pickFile } from "../panels/pick_file";
-import { agoWords } from "../panels/projects";
 import { useStudio } from "../shell/studio_context";
 import { kMethodNames } from "./modes";
 

@@ -20,11 +20,11 @@ export interface NumberBoxProps {
 export function NumberBox({ label, value, min, max, step, whole, standard, id, disabled, onChange }: NumberBoxProps) {
   const [draft, setDraft] = useState<string | null>(null);
   const gesture = useGesture(label);
-  const drag = useRef<{ x: number; value: number; moved: boolean } | null>(null);
+  const drag = useRef<{ x: number; value: number; unit: number; moved: boolean } | null>(null);
   const unit = step ?? (whole ? 1 : stepFor(value));
-  const limited = (next: number) => clampTo(whole ? Math.round(next) : tidy(next, unit), min, max);
-  const change = (next: number) => {
-    const good = limited(next);
+  const limited = (next: number, by: number) => clampTo(whole ? Math.round(next) : tidy(next, by), min, max);
+  const change = (next: number, by = unit) => {
+    const good = limited(next, by);
     if (good !== value) onChange(good, gesture.current());
   };
   const commit = () => {
@@ -32,6 +32,10 @@ export function NumberBox({ label, value, min, max, step, whole, standard, id, d
     setDraft(null);
     gesture.next();
     if (typed !== null) change(whole ? Math.round(typed) : typed);
+    gesture.next();
+  };
+  const endDrag = () => {
+    drag.current = null;
     gesture.next();
   };
   return (
@@ -66,28 +70,24 @@ export function NumberBox({ label, value, min, max, step, whole, standard, id, d
       }}
       onPointerDown={(event) => {
         if (event.button !== 0 || document.activeElement === event.currentTarget) return;
-        drag.current = { x: event.clientX, value, moved: false };
+        // The step stays what it was when the value grows by a digit.
+        drag.current = { x: event.clientX, value, unit, moved: false };
+        event.currentTarget.setPointerCapture(event.pointerId);
       }}
       onPointerMove={(event) => {
         const from = drag.current;
         if (from === null) return;
+        if ((event.buttons & 1) === 0) return endDrag();
         const distance = event.clientX - from.x;
         if (!from.moved && Math.abs(distance) < 4) return;
         if (!from.moved) {
           from.moved = true;
-          event.currentTarget.setPointerCapture(event.pointerId);
           event.currentTarget.blur();
         }
-        change(from.value + Math.round(distance / 3) * unit * (event.shiftKey ? 10 : 1));
+        change(from.value + Math.round(distance / 3) * from.unit * (event.shiftKey ? 10 : 1), from.unit);
       }}
-      onPointerUp={() => {
-        drag.current = null;
-        gesture.next();
-      }}
-      onPointerCancel={() => {
-        drag.current = null;
-        gesture.next();
-      }}
+      onPointerUp={endDrag}
+      onPointerCancel={endDrag}
     />
   );
 }

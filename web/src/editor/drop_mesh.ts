@@ -37,10 +37,8 @@ function arrived(studio: Studio, path: string): Promise<FileInfo | null> {
   });
 }
 
-/** Adds files to the project, and for each a `mesh` line to the grammar. */
-export async function addMeshFiles(
-  studio: Studio, files: readonly File[], insertLine: (at: number, line: string) => void, text: () => string,
-): Promise<void> {
+/** Adds files to the project, and for each a `mesh` line to the grammar, where the cursor goes. */
+export async function addMeshFiles(studio: Studio, files: readonly File[]): Promise<void> {
   for (const file of files) {
     if (file.size > kMeshBytes) {
       studio.tell(`${file.name} has ${Math.round(file.size / 1048576)} MB; at most 64 MB can be added.`, true);
@@ -48,11 +46,15 @@ export async function addMeshFiles(
     }
     const path = await studio.addFile(file.name, file);
     if (path === null) continue;
-    const name = meshName(text(), path);
-    insertLine(placeForMesh(text()), `mesh ${name} = "${path}"`);
+    const text = studio.grammar.peek();
+    const name = meshName(text, path);
+    const at = placeForMesh(text);
+    const line = `${at > 0 && text[at - 1] !== "\n" ? "\n" : ""}mesh ${name} = "${path}"`;
+    studio.setGrammar(`Add mesh ${name}`, `${text.slice(0, at)}${line}\n${text.slice(at)}`);
+    studio.state.jump.value = { at: { from: at + line.length, to: at + line.length }, focus: false };
     const project = studio.document.peek()?.project.id;
     const facts = await arrived(studio, path);
     const words = facts === null ? "" : `: ${meshWords(facts)}`;
-    studio.tell(`${path}${words}. The grammar calls it ${name}.`, false, project === undefined ? undefined : studio.files.previewUrl(project, path));
+    studio.tell(`${path}${words}. The grammar calls it ${name}.`, false, project === undefined ? {} : { picture: studio.files.previewUrl(project, path) });
   }
 }

@@ -4,7 +4,7 @@ import { defaultKeymap, indentWithTab, toggleComment } from "@codemirror/command
 import { bracketMatching, codeFolding, foldGutter, foldKeymap, indentOnInput, indentUnit } from "@codemirror/language";
 import { lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
-import { Annotation, EditorState, Transaction, type Extension } from "@codemirror/state";
+import { Annotation, Compartment, EditorState, Transaction, type Extension } from "@codemirror/state";
 import {
   drawSelection, dropCursor, EditorView, highlightActiveLine, highlightActiveLineGutter, hoverTooltip, keymap, lineNumbers, tooltips,
 } from "@codemirror/view";
@@ -22,7 +22,8 @@ import type { Keystroke } from "./typing";
 export interface EditorHost {
   symbols(): readonly Symbol[];
   typed(text: string, key: Keystroke): void;
-  cursor(at: number, focused: boolean): void;
+  /** `chosen`: a person went there, by key, click or jump; else the text moved, or the focus went. */
+  cursor(at: number, chosen: boolean): void;
   undo(): void;
   redo(): void;
   format(): void;
@@ -32,6 +33,7 @@ const fromServer = Annotation.define<boolean>();
 
 export class Editor {
   readonly view: EditorView;
+  private readonly access = new Compartment();
 
   constructor(parent: HTMLElement, text: string, private readonly host: EditorHost) {
     const root = parent.shadowRoot ?? parent.attachShadow({ mode: "open" });
@@ -71,10 +73,9 @@ export class Editor {
     if (focus) this.view.focus();
   }
 
-  insertLine(at: number, line: string): void {
-    const before = at > 0 && this.view.state.sliceDoc(at - 1, at) !== "\n" ? "\n" : "";
-    const insert = `${before}${line}\n`;
-    this.view.dispatch({ changes: { from: at, insert }, selection: { anchor: at + insert.length - 1 }, scrollIntoView: true });
+  /** Without a project there is nothing that could be typed. */
+  setReadOnly(readOnly: boolean): void {
+    this.view.dispatch({ effects: this.access.reconfigure(EditorState.readOnly.of(readOnly)) });
   }
 
   dispose(): void {
@@ -87,7 +88,7 @@ export class Editor {
       lineNumbers(), foldGutter({ openText: "▾", closedText: "▸" }), codeFolding({ placeholderText: "…" }), lintGutter({ hoverTime: 150 }),
       drawSelection(), dropCursor(), highlightActiveLine(), highlightActiveLineGutter(), highlightSelectionMatches(),
       bracketMatching(), closeBrackets(), indentOnInput(), indentUnit.of("  "), EditorState.tabSize.of(2), search({ top: false }),
-      espalierLanguage, espalierHighlighting, espalierFolding, editorTheme, tooltips({ position: "fixed" }),
+      this.access.of([]), espalierLanguage, espalierHighlighting, espalierFolding, editorTheme, tooltips({ position: "fixed" }),
       autocompletion({ override: [completionSource(() => this.host.symbols())], icons: false, activateOnTypingDelay: 60 }),
       hoverTooltip((view, at) => this.hover(view, at)),
       keymap.of([
@@ -120,7 +121,7 @@ export class Editor {
           this.host.typed(update.state.doc.toString(), { from, to, erased, at: performance.now() });
         }
         if (update.docChanged || update.selectionSet || update.focusChanged)
-          this.host.cursor(update.state.selection.main.head, update.view.hasFocus);
+          this.host.cursor(update.state.selection.main.head, update.view.hasFocus || update.selectionSet);
       }),
     ];
   }

@@ -1,5 +1,5 @@
 // The grammar on the left: the editor, tied to the store.
-import { effect } from "@preact/signals";
+import { computed, effect } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { addMeshFiles, isMeshFile } from "./drop_mesh";
 import { Editor } from "./editor";
@@ -10,24 +10,27 @@ import { useStudio } from "../shell/studio_context";
 export function GrammarPane() {
   const studio = useStudio();
   const place = useRef<HTMLDivElement>(null);
-  const editor = useRef<Editor | null>(null);
   const [over, setOver] = useState(false);
 
   useEffect(() => {
     const { state } = studio;
+    const hasProject = computed(() => studio.document.value !== null);
     const bursts = new TypingBursts();
-    let reveal = false;
-    const ownHistory = (action: () => void) => () => {
+    /** Steps back and forth that are asked for here and not answered: the cursor goes to what they change. */
+    let steps = 0;
+    const ownHistory = (action: () => Promise<boolean>) => () => {
       bursts.end();
-      reveal = true;
-      action();
+      steps += 1;
+      void action().finally(() => {
+        steps -= 1;
+      });
     };
     const made = new Editor(place.current!, studio.grammar.peek(), {
       symbols: () => state.checked.peek()?.symbols ?? [],
       typed: (text, key) => studio.type(text, bursts.gesture(key), ruleAt(text, key.to)),
-      cursor: (at, focused) => {
-        const rule = focused ? ruleAt(made.text(), at) : null;
-        if (state.cursorRule.peek() !== rule) state.cursorRule.value = rule;
+      // The rule stays lit while one looks at it in the view, which takes the focus.
+      cursor: (at, chosen) => {
+        if (chosen || state.cursorRule.peek() !== null) state.cursorRule.value = ruleAt(made.text(), at);
       },
       undo: ownHistory(() => studio.undo()),
       redo: ownHistory(() => studio.redo()),
@@ -36,14 +39,13 @@ export function GrammarPane() {
         studio.format();
       },
     });
-    editor.current = made;
     const stops = [
       effect(() => {
         const text = studio.grammar.value;
         if (text === made.text()) return;
-        made.setText(text, reveal);
-        reveal = false;
+        made.setText(text, steps > 0);
       }),
+      effect(() => made.setReadOnly(!hasProject.value)),
       effect(() => {
         const checked = state.checked.value;
         made.setProblems(checked?.problems ?? [], state.checkedText.peek());
@@ -71,7 +73,7 @@ export function GrammarPane() {
     event.stopPropagation();
     const good = files.filter((file) => isMeshFile(file.name));
     if (good.length < files.length) studio.tell("Only OBJ, GLB, PLY and STL files can be dropped here.", true);
-    void addMeshFiles(studio, good, (at, line) => editor.current?.insertLine(at, line), () => editor.current?.text() ?? "");
+    void addMeshFiles(studio, good);
   };
 
   return (

@@ -1,5 +1,6 @@
 // Bursts of typing: what one undo takes back. A new burst begins after a pause, when the cursor was moved elsewhere, and when
 // erasing follows writing.
+import { uniqueName } from "../base/unique_name";
 
 export const kBurstPause = 900;
 
@@ -13,7 +14,7 @@ export interface Keystroke {
 }
 
 export class TypingBursts {
-  private number = 0;
+  private name = "";
   private last: Keystroke | null = null;
 
   /** Name of the gesture that the key belongs to. */
@@ -21,9 +22,9 @@ export class TypingBursts {
     const last = this.last;
     const goesOn =
       last !== null && key.at - last.at < kBurstPause && key.erased === last.erased && key.from <= last.to + 1 && key.to >= last.from - 1;
-    if (!goesOn) this.number += 1;
+    if (!goesOn) this.name = uniqueName("typing");
     this.last = key;
-    return `typing ${this.number}`;
+    return this.name;
   }
 
   /** The next key begins a new one. */

@@ -28,7 +28,7 @@ export function FavouritesStrip({ keep }: { keep?: { words: string; disabled: bo
                 <span>{favourite.genes} genes</span>
               </span>
             </button>
-            <IconButton label={`Drop favourite of score ${showNumber(favourite.score)}`} kind="small" onClick={() => void studio.ask({ kind: "drop_favourite", favourite: favourite.id })}>
+            <IconButton label={`Drop favourite of score ${showNumber(favourite.score)}`} kind="small" onClick={() => void studio.dropFavourite(favourite.id)}>
               <Icon name="close" />
             </IconButton>
           </li>

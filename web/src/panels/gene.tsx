@@ -22,12 +22,12 @@ export function GenePanel() {
           <Icon name="rule" />{gene.rule}
         </button>
         <button type="button" class={gene.locked ? "button lock on" : "button lock"} aria-pressed={gene.locked} disabled={stale} onClick={() => void studio.genes.setLock(!gene.locked)} title="Keep it with all that stands on it (L)">
-          <Icon name={gene.locked ? "lock" : "unlock"} />{gene.locked ? "Locked" : "Lock"}
+          <Icon name={gene.locked ? "lock" : "unlock"} />Lock
         </button>
       </div>
       <p class="gene-path" title={gene.path}>{gene.path}</p>
       <p class="hint">{gene.below === 0 ? "Nothing stands on it." : gene.below === 1 ? "One gene stands on it." : `${gene.below} genes stand on it.`}</p>
-      {stale && <p class="hint">The model has changed since. Click a part again.</p>}
+      {stale && <p class="hint">The model that is shown has no such part.</p>}
       {gene.draws.map((draw) => <DrawRow key={`${gene.path} ${draw.index}`} draw={draw} disabled={stale} />)}
     </Panel>
   );

@@ -1,3 +1,4 @@
+import { base64Of } from "../base/base64";
 import { currentView } from "../shell/view_access";
 import type { Studio } from "../store/studio";
 
@@ -7,9 +8,4 @@ export async function keepFavourite(studio: Studio): Promise<void> {
   const portrait = (await currentView.value?.picture()) ?? null;
   const picture = portrait && { model: portrait.model, picture: await base64Of(portrait.image) };
   await studio.ask({ kind: "keep_favourite", ...picture });
-}
-
-export async function base64Of(blob: Blob): Promise<string> {
-  const bytes = new Uint8Array(await blob.arrayBuffer());
-  return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
 }

@@ -6,7 +6,7 @@ import { Icon } from "../controls/icons";
 import { changeBetween, movedPlace } from "../editor/changes";
 import { useStudio } from "../shell/studio_context";
 import { addMesh, meshesOf } from "../store/scene";
-import { isMeshFile, meshWords } from "../editor/drop_mesh";
+import { addMeshFiles, isMeshFile, meshWords } from "../editor/drop_mesh";
 import { pickFile } from "./pick_file";
 
 const kTabs = ["Problems", "Log", "Files"] as const;
@@ -110,7 +110,9 @@ function FileList({ files }: { files: readonly FileInfo[] }) {
   const studio = useStudio();
   const add = async () => {
     const file = await pickFile(".obj,.glb,.ply,.stl,.png,.jpg,.jpeg,.pfm,.esp");
-    if (file !== null) await studio.addFile(file.name, file);
+    if (file === null) return;
+    if (isMeshFile(file.name)) await addMeshFiles(studio, [file]);
+    else await studio.addFile(file.name, file);
   };
   const asTarget = (path: string) => {
     studio.setScene(`Add ${path}`, addMesh(studio.scene.value, { file: path }));

@@ -1,5 +1,6 @@
 import { useState } from "preact/hooks";
 import type { ProjectInfo } from "../api";
+import { agoWords } from "../base/ago_words";
 import { IconButton } from "../controls/fields";
 import { Icon } from "../controls/icons";
 import { Dialog } from "../shell/dialog";
@@ -28,7 +29,7 @@ export function ProjectsDialog() {
           <ul class="project-list">
             {projects.map((project) => <ProjectRow key={project.id} project={project} onOpened={close} />)}
           </ul>
-          <button type="button" class="text-button" onClick={() => void importFile()}>Import a project file</button>
+          <button type="button" class="text-button" onClick={() => void importFile()}title="A project file, or the zip file of a scene folder">Import a project or a scene</button>
         </section>
         <section aria-labelledby="projects-new">
           <h3 id="projects-new">New</h3>
@@ -62,14 +63,6 @@ export function ProjectsDialog() {
       </div>
     </Dialog>
   );
-}
-
-export function agoWords(seconds: number): string {
-  if (seconds < 90) return "just now";
-  const minutes = Math.round(seconds / 60);
-  if (minutes < 90) return `${minutes} minutes ago`;
-  const hours = Math.round(minutes / 60);
-  return hours < 36 ? `${hours} hours ago` : `${Math.round(hours / 24)} days ago`;
 }
 
 function ProjectRow({ project, onOpened }: { project: ProjectInfo; onOpened(): void }) {
@@ -107,7 +100,7 @@ function ProjectRow({ project, onOpened }: { project: ProjectInfo; onOpened(): v
       <li>
         <div class="project-question" role="group" aria-label={`Delete ${project.name}`}>
           <span>Delete {project.name} with its history?</span>
-          <button type="button" class="button bad" onClick={() => void studio.ask({ kind: "delete_project", project: project.id })}>Delete</button>
+          <button type="button" class="button bad" onClick={() => void studio.projects.delete(project.id)}>Delete</button>
           <button type="button" class="button" ref={(button) => button?.focus()} onClick={() => setMode("row")}>Keep</button>
         </div>
       </li>

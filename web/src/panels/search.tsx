@@ -106,6 +106,7 @@ function MaybeNumber({ setting, value, onChange }: {
             if (text.trim() === "") onChange(undefined, gesture.current());
             else if (next !== null) onChange(Math.min(setting.max, Math.max(setting.min, next)), gesture.current());
             else event.currentTarget.value = value === undefined ? "" : showNumber(value);
+            gesture.next();
           }}
         />
       </span>

@@ -104,7 +104,7 @@ function TargetRow({ row }: { row: Row }) {
         <span>{row.name}</span>
       </button>
       <TargetWeight row={row} />
-      <IconButton label={`${isHidden ? "Show" : "Hide"} ${row.name}`} pressed={isHidden} onClick={() => studio.visibility.toggle(kind, index)}>
+      <IconButton label={`Hide ${row.name}`} pressed={isHidden} onClick={() => studio.visibility.toggle(kind, index)}>
         <Icon name={isHidden ? "eyeOff" : "eye"} />
       </IconButton>
       <IconButton label={`Duplicate ${row.name}`} onClick={() => studio.duplicateTarget(kind, index)}><Icon name="copy" /></IconButton>

@@ -13,7 +13,7 @@ export function applyMessage(state: State, message: Exclude<Message, RoomMessage
         state.samples.value = message.samples;
         break;
       case "document":
-        if (state.confirmed.value !== null && state.confirmed.value.project.id !== message.project.id) forgetProject(state);
+        if (state.confirmed.value?.project.id !== message.project.id) forgetProject(state);
         state.confirmed.value = message;
         dropLostSelection(state);
         break;
@@ -30,10 +30,8 @@ export function applyMessage(state: State, message: Exclude<Message, RoomMessage
         state.shown.value = message;
         break;
       case "gene": {
-        if (state.wantedPath.value !== null && state.wantedPath.value !== message.path) {
-          if (state.selection.value?.kind === "gene") state.selection.value = null;
-          break;
-        }
+        // Of another that was selected before.
+        if (state.wantedPath.value !== null && state.wantedPath.value !== message.path) break;
         const other = state.gene.value?.path !== message.path;
         state.gene.value = message;
         state.selection.value = { kind: "gene", gene: message.gene };

@@ -1,8 +1,11 @@
 // Edits on their way to the server. Each holds the whole new grammar or scene, so what the page shows is what the server
 // confirmed with these laid over it, and sending one again after a lost connection does no harm.
-import { computed, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import type { Scene } from "../api";
 import { ConnectionLost } from "../connection/connection";
+
+/** Milliseconds without a key before typed text is sent. */
+export const kTypingPause = 150;
 
 export interface DocumentEdit {
   label: string;
@@ -37,6 +40,8 @@ export class EditQueue {
     }
     return out;
   });
+  /** All that the server has not confirmed, oldest first. */
+  readonly waiting = computed<readonly DocumentEdit[]>(() => this.entries.value.map((entry) => entry.edit));
   readonly size = computed(() => this.entries.value.length);
 
   constructor(private readonly options: EditQueueOptions) {}
@@ -64,6 +69,17 @@ export class EditQueue {
   flush(): void {
     this.release();
     this.pump(Infinity);
+  }
+
+  /** Until nothing waits and all was answered. */
+  rest(): Promise<void> {
+    return new Promise((done) => {
+      const stop = effect(() => {
+        if (this.size.value > 0) return;
+        queueMicrotask(() => stop());
+        done();
+      });
+    });
   }
 
   /** The connection is there and the project is open. */

@@ -1,9 +1,12 @@
 // The list of projects, and which of them is open.
 import type { Ask } from "../connection/connection";
+import { forgetProject } from "./state";
 import type { Studio } from "./studio";
 
 export class Projects {
   private firstList = true;
+  /** The project that was deleted here, which needs no word when it is gone. */
+  private deleted: number | null = null;
 
   /** `current`: the project that is open or wanted; null: the newest. */
   constructor(private readonly studio: Studio, private current: number | null) {}
@@ -18,21 +21,31 @@ export class Projects {
     this.current = id;
   }
 
-  /** The first list of a connection: opens the project that was open, the one of the address, or the newest. */
+  /** The first list of a connection opens the project that was open, the one of the address, or the newest. A later one
+   *  does so where the project that is open was deleted, here or by another page. */
   onList(): void {
-    if (!this.firstList) return;
+    const first = this.firstList;
     this.firstList = false;
     const list = this.studio.state.projects.value;
+    const open = this.studio.state.confirmed.value?.project.id;
+    const gone = open !== undefined && !list.some((project) => project.id === open);
+    if (gone) {
+      if (open !== this.deleted) this.studio.tell("The project that was open is not there any more.", true);
+      this.forget();
+    }
+    if (!first && !gone) return;
     const newest = [...list].sort((a, b) => b.changed - a.changed)[0]?.id;
     const id = list.some((project) => project.id === this.current) ? this.current! : newest;
-    if (this.studio.state.confirmed.value !== null && id !== this.studio.state.confirmed.value.project.id) {
-      this.studio.edits.clear();
-      this.studio.tell("The project that was open is not there any more.", true);
-    }
-    if (id === undefined) {
-      this.studio.state.confirmed.value = null;
-      this.studio.state.dialog.value = "projects";
-    } else void this.open(id);
+    if (id === undefined) this.studio.state.dialog.value = "projects";
+    else void this.open(id);
+  }
+
+  /** Nothing is open, and what was on its way to the project has nowhere to go. */
+  private forget(): void {
+    this.studio.edits.clear();
+    this.studio.edits.pause();
+    this.studio.room.onOtherProject();
+    forgetProject(this.studio.state);
   }
 
   async open(id: number): Promise<boolean> {
@@ -42,6 +55,7 @@ export class Projects {
     const opened = await this.studio.ask({ kind: "open_project", project: id });
     if (opened) {
       if (other) this.studio.edits.clear();
+      this.studio.parked.opened(id);
       this.studio.edits.resume();
     } else if (this.studio.state.status.value.kind === "open") {
       if (other) this.studio.edits.resume();
@@ -56,6 +70,11 @@ export class Projects {
 
   async duplicate(id: number): Promise<void> {
     await this.studio.ask({ kind: "duplicate_project", project: id });
+  }
+
+  async delete(id: number): Promise<void> {
+    this.deleted = id;
+    if (!(await this.studio.ask({ kind: "delete_project", project: id }))) this.deleted = null;
   }
 
   async import(file: Blob): Promise<void> {

@@ -15,13 +15,18 @@ export interface LogLine extends Omit<Log, "kind" | "request"> {
   picture?: string;
 }
 
+export interface NoticeMore {
+  /** Address of a picture beside it. */
+  picture?: string;
+  /** What can be done about it. */
+  action?: { words: string; run(): void };
+}
+
 /** A word to the person that goes by itself. */
-export interface Notice {
+export interface Notice extends NoticeMore {
   number: number;
   text: string;
   bad: boolean;
-  /** Address of a picture beside it. */
-  picture?: string;
 }
 
 /** Where the editor shall go; a new object each time. */
@@ -46,7 +51,7 @@ export function newState() {
     search: signal<SearchState | null>(null),
     shown: signal<Shown | null>(null),
     gene: signal<Gene | null>(null),
-    /** Path of the gene that was asked for again in a new model, where its number may mean another; null: any will do. */
+    /** Path of the gene that is asked for again in each new model; null: another was chosen, by its number. */
     wantedPath: signal<string | null>(null),
     log: signal<readonly LogLine[]>([]),
     /** The newest binary messages. */
@@ -60,7 +65,7 @@ export function newState() {
     tool: signal<Tool>("select"),
     brush: signal<{ brush: Brush; radius: number }>({ brush: "want", radius: 24 }),
     hidden: signal<Hidden>(kNoneHidden),
-    /** The rule or detail that the cursor stands in, while the editor has the focus. */
+    /** The rule or detail that the cursor was put in, until Escape in the view; null: none. */
     cursorRule: signal<string | null>(null),
     jump: signal<Jump | null>(null),
     notices: signal<readonly Notice[]>([]),
@@ -88,5 +93,6 @@ export function forgetProject(state: State): void {
   state.cloud.value = null;
   state.drawn.value = null;
   state.selection.value = null;
+  state.cursorRule.value = null;
   state.hidden.value = kNoneHidden;
 }

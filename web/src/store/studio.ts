@@ -8,8 +8,9 @@ import { Room } from "../breeding/room";
 import type { Look, ViewHost } from "../view/host";
 import { MessageError } from "../view/messages";
 import { applyBinary, applyMessage } from "./apply_message";
-import { EditQueue } from "./edit_queue";
+import { EditQueue, kTypingPause } from "./edit_queue";
 import { Genes } from "./genes";
+import { ParkedEdits, type Parking } from "./parked_edits";
 import type { Preferences } from "./preferences";
 import { Projects } from "./projects";
 import {
@@ -18,7 +19,7 @@ import {
 } from "./scene";
 import { Searching } from "./searching";
 import { stable } from "./stable";
-import { addLog, newState, type TargetSelection } from "./state";
+import { addLog, newState, type NoticeMore, type TargetSelection } from "./state";
 import { Visibility } from "./visibility";
 import { watchReach } from "./watch_reach";
 
@@ -26,6 +27,8 @@ export interface StudioOptions {
   openSocket(): Socket;
   files: Files;
   preferences: Signal<Preferences>;
+  /** Keeps edits over a reload. */
+  parking: Parking;
   /** Whether the system wants dark. */
   systemDark: Signal<boolean>;
   /** What to open first; null: the newest project, and no session. */
@@ -37,9 +40,9 @@ export interface StudioOptions {
   random(): number;
 }
 
-/** Milliseconds without a key before typed text is sent. */
-export const kTypingPause = 150;
 const kNoticeMilliseconds = 5000;
+/** Of notices that something can be done about. */
+const kOfferMilliseconds = 15000;
 
 export class Studio implements ViewHost {
   readonly state = newState();
@@ -71,6 +74,7 @@ export class Studio implements ViewHost {
   readonly genes = new Genes(this);
   readonly visibility = new Visibility(this);
   readonly room: Room;
+  readonly parked: ParkedEdits;
   private notices = 0;
 
   constructor(private readonly options: StudioOptions) {
@@ -93,6 +97,7 @@ export class Studio implements ViewHost {
       onFailed: (edit, text) => this.tell(`${edit.label}: ${text}`, true),
       later: options.later,
     });
+    this.parked = new ParkedEdits(this, options.parking);
   }
 
   // --- Connection -------------------------------------------------------------------------------------------------------
@@ -133,31 +138,44 @@ export class Studio implements ViewHost {
     }
   }
 
-  /** After all edits that were made before it. */
-  askAfterEdits(ask: Ask): Promise<boolean> {
+  /** After all edits and draws that were made before it. */
+  async askAfterEdits(ask: Ask): Promise<boolean> {
+    if (this.genes.rest !== null) await this.genes.rest;
     this.edits.flush();
     return this.ask(ask);
   }
 
-  /** What is bad, or has a picture beside it, stands in the log too. */
-  tell(text: string, bad = false, picture?: string): void {
-    const number = ++this.notices;
-    const notice = { number, text, bad, ...(picture === undefined ? {} : { picture }) };
-    this.state.notices.value = [...this.state.notices.value, notice].slice(-3);
-    if (bad || picture !== undefined) addLog(this.state, bad ? "error" : "info", text, new Date(), picture);
-    this.options.later(kNoticeMilliseconds, () => {
-      this.state.notices.value = this.state.notices.value.filter((notice) => notice.number !== number);
+  /** Until the server has confirmed all that was done here; null: it has. */
+  get rest(): Promise<void> | null {
+    if (this.genes.rest === null && this.edits.size.value === 0) return null;
+    return Promise.resolve(this.genes.rest).then(() => {
+      this.edits.flush();
+      return this.edits.rest();
     });
+  }
+
+  /** It goes by itself, and stands in the log. */
+  tell(text: string, bad = false, more: NoticeMore = {}): void {
+    const number = ++this.notices;
+    this.state.notices.value = [...this.state.notices.value, { number, text, bad, ...more }].slice(-3);
+    addLog(this.state, bad ? "error" : "info", text, new Date(), more.picture);
+    this.options.later(more.action === undefined ? kNoticeMilliseconds : kOfferMilliseconds, () => this.unsay(number));
+  }
+
+  unsay(notice: number): void {
+    this.state.notices.value = this.state.notices.value.filter(({ number }) => number !== notice);
   }
 
   // --- Editing ----------------------------------------------------------------------------------------------------------
 
   /** Of the grammar, while typing: sent when the keys rest. */
   type(grammar: string, gesture: string, rule: string | null): void {
+    if (this.state.confirmed.value === null) return;
     this.edits.push({ label: rule === null ? "Edit grammar" : `Edit ${rule}`, gesture, grammar, search: this.live() }, kTypingPause);
   }
 
   setGrammar(label: string, grammar: string): void {
+    if (this.state.confirmed.value === null) return;
     this.edits.push({ label, grammar, search: this.live() });
   }
 
@@ -170,11 +188,11 @@ export class Studio implements ViewHost {
     return this.preferences.value.live;
   }
 
-  undo(): void {
-    void this.askAfterEdits({ kind: "undo" });
+  undo(): Promise<boolean> {
+    return this.askAfterEdits({ kind: "undo" });
   }
-  redo(): void {
-    void this.askAfterEdits({ kind: "redo" });
+  redo(): Promise<boolean> {
+    return this.askAfterEdits({ kind: "redo" });
   }
   format(): void {
     void this.askAfterEdits({ kind: "format" });
@@ -184,15 +202,21 @@ export class Studio implements ViewHost {
     batch(() => {
       this.visibility.removed(kind, index);
       this.setScene(`Delete ${kind} ${index + 1}`, removeTarget(this.scene.value, kind, index));
-      this.state.selection.value = null;
+      this.select(null);
     });
   }
 
   duplicateTarget(kind: TargetKind, index: number): void {
     batch(() => {
       this.setScene(`Duplicate ${kind} ${index + 1}`, duplicateTarget(this.scene.value, kind, index));
-      this.state.selection.value = { kind, index: countOf(this.scene.value, kind) - 1 };
+      this.select({ kind, index: countOf(this.scene.value, kind) - 1 });
     });
+  }
+
+  async dropFavourite(favourite: number): Promise<void> {
+    if (!(await this.ask({ kind: "drop_favourite", favourite }))) return;
+    const run = () => void this.ask({ kind: "restore_favourite", favourite });
+    this.tell("A favourite was dropped.", false, { action: { words: "Take it back", run } });
   }
 
   /** The name that the file got, or null. */
@@ -266,7 +290,7 @@ export class Studio implements ViewHost {
       ? changeSilhouette(before, index, { image: file, want_image: undefined, avoid_image: undefined })
       : addSilhouette(before, { image: file, view: "parts", camera });
     this.setScene("Paint silhouette", scene);
-    this.state.selection.value = { kind: "silhouette", index: index >= 0 ? index : silhouettesOf(scene).length - 1 };
+    this.select({ kind: "silhouette", index: index >= 0 ? index : silhouettesOf(scene).length - 1 });
   }
 
   drawn(_model: number, milliseconds: number): void {
@@ -279,7 +303,7 @@ export class Studio implements ViewHost {
     const place = effect(() => {
       if (project.value !== undefined) this.options.onPlace(project.value, this.room.place.value);
     });
-    const stops = [place, this.genes.watch(), this.visibility.watch(), this.room.watch(), watchReach(this, this.options.later)];
+    const stops = [place, this.genes.watch(), this.visibility.watch(), this.room.watch(), this.parked.watch(), watchReach(this, this.options.later)];
     return () => stops.forEach((stop) => stop());
   }
 }

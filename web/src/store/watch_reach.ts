@@ -1,5 +1,6 @@
 import { effect } from "@preact/signals";
-import { kTypingPause, type Studio } from "./studio";
+import { kTypingPause } from "./edit_queue";
+import type { Studio } from "./studio";
 
 /** Where the rule under the cursor can reach: asked when the cursor rests, and again as soon as a changed grammar was checked:
  * keys rested before that. */

@@ -1,6 +1,7 @@
 // The scene as the view shows it: the document's, with what is being dragged. Edits go out once per animation frame
 // under one gesture; what comes back meanwhile is older than what is shown, and waits.
 import type { Scene } from "../api";
+import { uniqueName } from "../base/unique_name";
 import type { ViewHost } from "./host";
 
 export interface Clock {
@@ -28,8 +29,6 @@ export class Draft {
   /** What went out last, until it came back. */
   private awaited: Scene | null = null;
   private giveUp: (() => void) | null = null;
-  private count = 0;
-  private readonly session = Math.floor(Math.random() * 2 ** 32).toString(36);
 
   constructor(
     private readonly host: Pick<ViewHost, "edit">, private readonly clock: Clock,
@@ -52,7 +51,7 @@ export class Draft {
   }
 
   newGesture(): string {
-    return `view-${this.session}-${++this.count}`;
+    return uniqueName("view");
   }
 
   begin(label: string, id = this.newGesture()): void {

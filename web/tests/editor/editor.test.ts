@@ -54,6 +54,16 @@ describe("the editor", () => {
     expect(found).toEqual(["B"]);
   });
 
+  test("takes no keys while there is no project, but the server's text", () => {
+    const { editor } = make("");
+    editor.setReadOnly(true);
+    expect(editor.view.state.readOnly).toBe(true);
+    editor.setText("abc", false);
+    expect(editor.text()).toBe("abc");
+    editor.setReadOnly(false);
+    expect(editor.view.state.readOnly).toBe(false);
+  });
+
   test("has no history of its own", () => {
     const { editor, asked } = make("a");
     const press = (key: string, more = {}) =>

@@ -1,14 +1,14 @@
 import { describe, expect, test } from "vitest";
 import type { Attribute } from "../../src/api";
+import { agoWords } from "../../src/base/ago_words";
 import { clampTo, fromLog, readNumber, showNumber, stepFor, thousands, tidy, toLog } from "../../src/controls/number";
 import { attributeValue, isWhole, labelOf, sceneValue } from "../../src/panels/attribute_values";
 import { changeEngine, changeSetting, ENGINE_SETTINGS, ENGINES, engineOf, settingOf } from "../../src/panels/engine_settings";
 import { boxAround } from "../../src/panels/limits";
 import { barsOf } from "../../src/panels/objective";
 import { showBytes } from "../../src/panels/problems";
-import { agoWords } from "../../src/panels/projects";
 import { kSparkline, sparklinePoints } from "../../src/panels/sparkline";
-import { SHORTCUTS, shortcutFor, takesText } from "../../src/shell/shortcuts";
+import { SHORTCUTS, shortcutFor, takesText } from "../../src/page/shortcuts";
 
 describe("numbers", () => {
   test("are shown short and read kindly", () => {

@@ -29,6 +29,46 @@ describe("opening", () => {
     expect(bench.socket.kinds()).toEqual(["open_project"]);
   });
 
+  test("the open project, deleted here or elsewhere, gives way to the newest, or to the dialog", async () => {
+    const bench = await new Bench().open("one");
+    bench.socket.say(shownOf(3));
+    bench.sayProjects(1, 4, 2);
+    bench.studio.setGrammar("Edit", "two");
+    bench.sayProjects(4, 2);
+    expect(bench.socket.sent.at(-1)).toMatchObject({ kind: "open_project", project: 4 });
+    expect(bench.studio.state.notices.value.at(-1)).toMatchObject({ bad: true });
+    expect(bench.studio.document.value).toBeNull();
+    expect(bench.studio.state.shown.value).toBeNull();
+    expect(bench.studio.edits.size.value).toBe(0);
+    // A model of the deleted one may still have been on its way.
+    bench.socket.say(shownOf(4));
+    bench.socket.say(documentOf(1, "other", {}, 4));
+    expect(bench.studio.state.shown.value).toBeNull();
+    await bench.answer("open_project");
+    const said = bench.studio.state.notices.value.length;
+    void bench.studio.projects.delete(4);
+    bench.sayProjects();
+    await bench.answer("delete_project");
+    expect(bench.studio.document.value).toBeNull();
+    expect(bench.studio.state.dialog.value).toBe("projects");
+    expect(bench.studio.state.notices.value).toHaveLength(said);
+  });
+
+  test("what is typed while no project is open goes into none", async () => {
+    const bench = new Bench();
+    bench.socket.onopen!();
+    bench.sayProjects();
+    bench.studio.type("lost", "typing 1", null);
+    bench.studio.setGrammar("Insert", "lost");
+    bench.sayProjects(1);
+    void bench.studio.projects.open(1);
+    bench.socket.say(documentOf(1, "sample"));
+    await bench.answer("open_project");
+    bench.clock.advance(1000);
+    expect(bench.edits()).toEqual([]);
+    expect(bench.studio.grammar.value).toBe("sample");
+  });
+
   test("a project that was made is opened, whether or not the server does so itself", async () => {
     const bench = await new Bench().open();
     bench.studio.watch();
@@ -77,6 +117,43 @@ describe("a lost connection", () => {
     await bench.answer("edit");
     expect(bench.studio.edits.size.value).toBe(0);
     expect(bench.studio.grammar.value).toBe("three");
+  });
+
+  test("what waits is sent after a reload too, to its own project alone and once", async () => {
+    const before = await new Bench().open("one");
+    const stop = before.studio.watch();
+    before.socket.onclose!();
+    before.studio.type("two", "typing 1", "Stem");
+    stop();
+    const after = new Bench(1, null, before.parked);
+    after.studio.watch();
+    after.socket.onopen!();
+    after.sayProjects(1, 2);
+    after.socket.say(documentOf(1, "one"));
+    await after.answer("open_project");
+    expect(after.studio.grammar.value).toBe("two");
+    expect(after.edits()).toMatchObject([{ label: "Edit Stem", grammar: "two" }]);
+    after.socket.say(documentOf(2, "two"));
+    await after.answer("edit");
+    expect(after.parked.size).toBe(0);
+
+    const other = new Bench(2, null, new Map([["espalier-studio-edits", '{"project":1,"edits":[{"label":"a","grammar":"two"}]}']]));
+    other.studio.watch();
+    other.socket.onopen!();
+    other.sayProjects(1, 2);
+    other.socket.say(documentOf(1, "other", {}, 2));
+    await other.answer("open_project");
+    expect(other.edits()).toEqual([]);
+    expect(other.studio.grammar.value).toBe("other");
+    void new Bench(1, null, new Map([["espalier-studio-edits", "nonsense"]])).open();
+  });
+
+  test("what was sent before the page went is not sent again", async () => {
+    const before = await new Bench().open("one");
+    const stop = before.studio.watch();
+    before.studio.setGrammar("Edit", "two");
+    stop();
+    expect(before.parked.size).toBe(0);
   });
 
   test("a project that is gone is told of, and its edits with it", async () => {
@@ -228,20 +305,42 @@ describe("genes", () => {
     bench.studio.select({ kind: "gene", gene: 4 });
     bench.socket.say(gene(3, 4));
     bench.socket.say(shownOf(5));
-    expect(bench.socket.sent.at(-1)).toMatchObject({ kind: "ask_gene", gene: 4, model: 5 });
-    bench.socket.say(gene(5, 4));
-    expect(bench.studio.state.selection.value).toEqual({ kind: "gene", gene: 4 });
+    const again = bench.socket.sent.at(-1)!;
+    expect(again).toMatchObject({ kind: "ask_gene", path: "A/B", model: 5 });
+    expect(again).not.toHaveProperty("gene");
+    // Its number is another there.
+    bench.socket.say(gene(5, 7));
+    expect(bench.studio.state.selection.value).toEqual({ kind: "gene", gene: 7 });
     expect(bench.studio.state.gene.value!.model).toBe(5);
+    // An answer that comes too late changes nothing.
+    bench.studio.select({ kind: "gene", gene: 8 });
+    bench.socket.say(gene(5, 8, "A/D"));
     bench.socket.say(shownOf(6));
-    bench.socket.say(gene(6, 4, "A/C"));
+    bench.socket.say(gene(5, 7));
+    expect(bench.studio.state.gene.value!.path).toBe("A/D");
+    stop();
+  });
+
+  test("that a model does not have are selected again as soon as one has them, unless something else was", async () => {
+    const bench = await new Bench().open();
+    const stop = bench.studio.watch();
+    bench.socket.say(shownOf(3));
+    bench.studio.select({ kind: "gene", gene: 4 });
+    bench.socket.say(gene(3, 4));
+    bench.socket.say(shownOf(4));
+    bench.socket.say(shownOf(5));
+    await bench.answer("ask_gene", "model 5 has no gene A/B");
     expect(bench.studio.state.selection.value).toBeNull();
     expect(bench.studio.state.gene.value!.path).toBe("A/B");
-    const count = bench.socket.sent.length;
+    bench.socket.say(shownOf(6));
+    bench.socket.say(gene(6, 2));
+    expect(bench.studio.state.selection.value).toEqual({ kind: "gene", gene: 2 });
     bench.socket.say(shownOf(7));
+    await bench.answer("ask_gene", "model 7 has no gene A/B");
+    bench.studio.select(null);
+    const count = bench.socket.sent.length;
+    bench.socket.say(shownOf(8));
     expect(bench.socket.sent).toHaveLength(count);
-    bench.studio.select({ kind: "gene", gene: 8 });
-    bench.socket.say(gene(7, 8, "A/D"));
-    expect(bench.studio.state.gene.value!.path).toBe("A/D");
     stop();
   });
 
@@ -269,6 +368,49 @@ describe("genes", () => {
     expect(draws()[1]).toMatchObject({ model: 4, gene: 6, quantile: 0.9, gesture: "g" });
     await bench.answer("set_draw");
     expect(draws()).toHaveLength(2);
+  });
+
+  test("the last of one slider is not lost to the next, which is set in the model that it made", async () => {
+    const bench = await new Bench().open();
+    bench.socket.say(shownOf(3));
+    bench.socket.say(gene(3, 4));
+    bench.studio.genes.setDraw(0, 0.1, "a");
+    bench.studio.genes.setDraw(0, 0.2, "a");
+    bench.studio.genes.setDraw(1, 0.7, "b");
+    const draws = () => bench.socket.sent.filter((one) => one.kind === "set_draw").map(({ index, quantile, model }) => [index, quantile, model]);
+    await bench.answer("set_draw");
+    await bench.answer("set_draw");
+    expect(draws()).toEqual([[0, 0.1, 3], [0, 0.2, 3]]);
+    bench.socket.say(shownOf(4));
+    bench.socket.say(gene(4, 4));
+    await settle();
+    expect(draws()).toEqual([[0, 0.1, 3], [0, 0.2, 3], [1, 0.7, 4]]);
+  });
+
+  test("undo and locks come after draws and edits that wait", async () => {
+    const bench = await new Bench().open();
+    bench.socket.say(shownOf(3));
+    bench.studio.select({ kind: "gene", gene: 4 });
+    bench.socket.say(gene(3, 4));
+    bench.studio.genes.setDraw(0, 0.1, "a");
+    bench.studio.genes.setDraw(0, 0.2, "a");
+    bench.studio.undo();
+    expect(bench.socket.kinds()).not.toContain("undo");
+    await bench.answer("set_draw");
+    await bench.answer("set_draw");
+    expect(bench.socket.kinds().slice(-3)).toEqual(["set_draw", "set_draw", "undo"]);
+    await bench.answer("undo");
+    bench.studio.type("typed", "typing 1", null);
+    void bench.studio.genes.setLock(true);
+    expect(bench.socket.kinds().slice(-2)).toEqual(["edit", "set_lock"]);
+    expect(bench.studio.rest).not.toBeNull();
+    let rested = false;
+    void bench.studio.rest!.then(() => (rested = true));
+    await settle();
+    expect(rested).toBe(false);
+    await bench.answer("edit");
+    expect(rested).toBe(true);
+    expect(bench.studio.rest).toBeNull();
   });
 });
 
@@ -339,7 +481,30 @@ describe("painting", () => {
   });
 });
 
+describe("favourites", () => {
+  test("that were dropped can be taken back for a while", async () => {
+    const bench = await new Bench().open();
+    const dropped = bench.studio.dropFavourite(7);
+    await bench.answer("drop_favourite");
+    await dropped;
+    bench.clock.advance(10000);
+    bench.studio.state.notices.value.at(-1)!.action!.run();
+    expect(bench.socket.sent.at(-1)).toMatchObject({ kind: "restore_favourite", favourite: 7 });
+    bench.clock.advance(10000);
+    expect(bench.studio.state.notices.value).toEqual([]);
+  });
+});
+
 describe("the log", () => {
+  test("has what notices said, after they went", async () => {
+    const bench = await new Bench().open();
+    bench.studio.tell("good");
+    bench.studio.tell("bad", true);
+    bench.clock.advance(10000);
+    expect(bench.studio.state.notices.value).toEqual([]);
+    expect(bench.studio.state.log.value).toMatchObject([{ level: "info", text: "good" }, { level: "error", text: "bad" }]);
+  });
+
   test("keeps the newest lines", async () => {
     const bench = await new Bench().open();
     for (let i = 0; i < 700; ++i) bench.socket.say({ kind: "log", level: "info", text: `line ${i}` });

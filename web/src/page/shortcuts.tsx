@@ -5,10 +5,10 @@ import { runRoomAction } from "../breeding/run_action";
 import type { Side, Tool } from "../view/host";
 import type { Studio } from "../store/studio";
 import { countOf } from "../store/scene";
-import { Dialog } from "./dialog";
+import { Dialog } from "../shell/dialog";
 import { keepFavourite } from "../panels/keep_favourite";
-import { useStudio } from "./studio_context";
-import { currentView } from "./view_access";
+import { useStudio } from "../shell/studio_context";
+import { currentView } from "../shell/view_access";
 
 export interface Shortcut {
   /** As a KeyboardEvent has it: "z", "F8", "?". */
@@ -58,7 +58,8 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { key: "Backspace", words: "Delete the selected target", group: "Editing", unlisted: true, run: (studio) => onSelected(studio, "removeTarget") },
   { key: "]", words: "Select the next target", group: "Editing", run: (studio) => stepTarget(studio, 1) },
   { key: "[", words: "Select the target before", group: "Editing", run: (studio) => stepTarget(studio, -1) },
-  { key: "Escape", words: "Select nothing; the select tool", group: "Editing", run: (studio) => {
+  { key: "Escape", words: "Select nothing, light no rule; the select tool", group: "Editing", run: (studio) => {
+    studio.state.cursorRule.value = null;
     studio.setTool("select");
     studio.select(null);
   } },

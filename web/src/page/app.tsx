@@ -13,8 +13,8 @@ import { TargetsPanel } from "../panels/targets";
 import { PREFERENCE_DEFAULTS } from "../store/preferences";
 import type { Studio } from "../store/studio";
 import { listenForShortcuts, ShortcutsDialog } from "./shortcuts";
-import { Splitter } from "./splitter";
-import { StudioContext, useStudio } from "./studio_context";
+import { Splitter } from "../shell/splitter";
+import { StudioContext, useStudio } from "../shell/studio_context";
 import { Toolbar } from "./toolbar";
 import { ViewPane } from "./view_pane";
 
@@ -87,10 +87,26 @@ export function App({ studio }: { studio: Studio }) {
 
 /** Words that go by themselves. */
 function Notices() {
-  const { state } = useStudio();
+  const studio = useStudio();
   return (
     <div class="notices" role="status" aria-live="polite">
-      {state.notices.value.map((notice) => <p key={notice.number} class={notice.bad ? "notice bad" : "notice"}>{notice.picture !== undefined && <img src={notice.picture} alt="" onError={(event) => (event.currentTarget.hidden = true)} />}{notice.text}</p>)}
+      {studio.state.notices.value.map(({ number, text, bad, picture, action }) => (
+        <p key={number} class={bad ? "notice bad" : "notice"}>
+          {picture !== undefined && <img src={picture} alt="" onError={(event) => (event.currentTarget.hidden = true)} />}
+          {text}
+          {action !== undefined && (
+            <button
+              type="button" class="text-button"
+              onClick={() => {
+                studio.unsay(number);
+                action.run();
+              }}
+            >
+              {action.words}
+            </button>
+          )}
+        </p>
+      ))}
     </div>
   );
 }

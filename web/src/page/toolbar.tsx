@@ -3,7 +3,7 @@ import { IconButton } from "../controls/fields";
 import { Icon, type IconName } from "../controls/icons";
 import { ExportMenu } from "../panels/export_menu";
 import type { Theme } from "../store/preferences";
-import { useStudio } from "./studio_context";
+import { useStudio } from "../shell/studio_context";
 
 const kThemes: readonly { theme: Theme; icon: IconName }[] = [
   { theme: "system", icon: "system" },
