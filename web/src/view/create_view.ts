@@ -162,7 +162,7 @@ export class View implements StudioView, Desk {
   setTool(tool: Tool): void {
     if (tool === this.tool) return;
     this.input.cancel();
-    this.tools.cancel();
+    this.tools.finish(tool);
     if (this.tool === "paint") this.paint.finish(true, this.camera());
     this.tool = tool;
     if (tool === "paint") {

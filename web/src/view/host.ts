@@ -13,8 +13,9 @@ export type Selection =
 
 /** What the view asks for. All of it ends up as an edit of the document. */
 export interface ViewHost {
-  /** The scene shall be `scene`. Edits with the same gesture in a row are one step of undo; `search`: search anew. */
-  edit(change: { label: string; gesture?: string; scene: Scene; search: boolean }): void;
+  /** The scene shall be `scene`. Edits with the same gesture in a row are one step of undo; `search`: search anew. Returns
+   *  the scene that it became, which may have more to it. */
+  edit(change: { label: string; gesture?: string; scene: Scene; search: boolean }): Scene;
   select(selection: Selection | null): void;
   setTool(tool: Tool): void;
   /** Settings of a curve that is drawn: those of the curve drawn or selected last. */
