@@ -118,7 +118,12 @@ export class View implements StudioView, Desk {
     this.notices.guard(() => this.model.setMeshes(message));
   }
 
-  setModel(message: ArrayBuffer): void {
+  setModel(message: ArrayBuffer | null): void {
+    if (message === null) {
+      this.model.clear();
+      this.arrived = null;
+      return this.redraw();
+    }
     const at = performance.now();
     this.notices.guard(() => {
       const number = this.model.setModel(message);

@@ -68,7 +68,8 @@ export interface Portrait {
 export interface StudioView {
   /** Binary messages as they come: docs/studio-protocol.md. */
   setMeshes(message: ArrayBuffer): void;
-  setModel(message: ArrayBuffer): void;
+  /** null: none, until another comes. */
+  setModel(message: ArrayBuffer | null): void;
   setCloud(message: ArrayBuffer | null): void;
   setRules(names: string[]): void;
   setScene(scene: Scene, fileUrl: (path: string) => string): void;
