@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -146,6 +147,17 @@ std::vector<Member> random_screen(const LoadedGrammar& grammar, std::uint64_t se
   return members;
 }
 
+/// A generation of these members after those before it, whose least ratings it notes.
+std::vector<Member> bred(const BreedProblem& problem, const BreedSettings& settings, const std::vector<Member>& members,
+                         std::uint32_t generation, MemberId next_id, std::deque<double>& worst_before) {
+  const std::vector<double> worst(worst_before.begin(), worst_before.end());
+  std::vector<Member> next = next_generation(problem, settings, members, generation, next_id, worst).members;
+  double least = members[0].rating;
+  for (const Member& member : members) least = std::min(least, member.rating);
+  worst_before.push_front(least);
+  return next;
+}
+
 void breed_until_close(Method method, const Options& options, const LoadedGrammar& grammar, std::uint64_t seed,
                        Session& session) {
   Bench bench(grammar);
@@ -175,13 +187,14 @@ void breed_until_close(Method method, const Options& options, const LoadedGramma
     members = first_generation(bench.problem, settings, {}, 1).members;
   }
   MemberId next_id = 1000;
+  std::deque<double> worst_before;
   for (std::uint32_t generation = 1; generation < 2000; ++generation) {
     if (!session.rate(members, method == Method::taste ? &features : nullptr)) break;
     if (method == Method::taste) {
       const Taste taste(session.opinions, {}, taste_settings);
       members = next_screen(bench.problem, settings, screen, members, taste, generation, next_id).generation.members;
     } else {
-      members = next_generation(bench.problem, settings, members, generation, next_id).members;
+      members = bred(bench.problem, settings, members, generation, next_id, worst_before);
     }
     next_id += members.size();
   }
@@ -321,6 +334,7 @@ std::string run_variant(int variant, std::uint32_t which, const Derivation& favo
   std::vector<Member> members = random_screen(grammar, bench.problem.seed, settings.population);
   double seconds = 0, best = 1;
   std::uint32_t generations = 0;
+  std::deque<double> worst_before;
   for (MemberId next_id = 1000; generations < (variant == 1 ? kIdleGenerations : kMostGenerations); next_id += 20) {
     std::vector<Member> attended = members;
     seconds += attend(variant, *grammar.graph, favourite, user, attended);
@@ -328,7 +342,7 @@ std::string run_variant(int variant, std::uint32_t which, const Derivation& favo
     members = std::move(attended);
     for (const Member& member : members) best = std::min(best, user.distance(member.derivation));
     ++generations;
-    members = next_generation(bench.problem, settings, members, generations, next_id).members;
+    members = bred(bench.problem, settings, members, generations, next_id, worst_before);
   }
   double apart = 0, pairs = 0, mean = 0;
   for (std::size_t i = 0; i < members.size(); ++i) {

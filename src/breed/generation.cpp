@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <unordered_map>
 #include <unordered_set>
 
 #include <fmt/format.h>
@@ -51,23 +53,46 @@ std::vector<std::uint8_t> held_bits(const BreedProblem& problem, const GenesisEn
   return bits;
 }
 
+/// Of the parents and of what came before them, as far as the scaling window reaches.
+double worst_of_window(const BreedSettings& settings, const std::vector<double>& ratings,
+                       std::span<const double> worst_before) {
+  double worst = *std::min_element(ratings.begin(), ratings.end());
+  const std::size_t reach = std::min<std::size_t>(worst_before.size(), settings.genesis.window);
+  for (const double before : worst_before.first(reach)) worst = std::min(worst, settings.use_ratings ? before : 0.0);
+  return worst;
+}
+
 NextGeneration classic_generation(const BreedProblem& problem, const BreedSettings& settings,
-                                  const std::vector<Member>& parents, std::uint32_t number) {
+                                  const std::vector<Member>& parents, std::uint32_t number,
+                                  std::span<const double> worst_before) {
   const GenesisEncoding encoding(*problem.graph, settings.genesis.bits, settings.genesis.gray);
   std::vector<BitString> strings;
   for (const Member& parent : parents) strings.push_back(encoding.encode(parent.derivation));
   const std::vector<double> ratings = ratings_of(settings, parents);
   RandomStream random = stream_of(problem, BreedStream::select, number, 0);
   const std::vector<GenesisChild> children =
-      next_strings(strings, ratings, settings.population, *std::min_element(ratings.begin(), ratings.end()),
+      next_strings(strings, ratings, settings.population, worst_of_window(settings, ratings, worst_before),
                    settings.genesis, held_bits(problem, encoding, parents[0].derivation), random);
 
+  std::unordered_map<std::uint64_t, std::size_t> known;  // parents
+  for (std::size_t i = 0; i < parents.size(); ++i) known.emplace(hash(parents[i].derivation), i);
   std::vector<Candidate> candidates;
+  std::vector<std::optional<std::size_t>> copied;  // per child, the parent that it is
   for (const GenesisChild& child : children) {
-    if (!child.changed) continue;
+    copied.emplace_back();
+    if (!child.changed) {
+      copied.back() = child.parent;
+      continue;
+    }
     Candidate candidate;
     candidate.derivation = encoding.inherit(child.string, parents[child.parent].derivation,
                                             parents[child.partner].derivation);
+    // Two parents that differ between the two points alone are swapped whole.
+    const auto twin = known.find(hash(candidate.derivation));
+    if (twin != known.end() && parents[twin->second].derivation == candidate.derivation) {
+      copied.back() = twin->second;
+      continue;
+    }
     candidate.origin = child.partner == child.parent ? Origin::mutated : Origin::crossed;
     candidate.parents = {child.parent};
     if (child.partner != child.parent) candidate.parents.push_back(child.partner);
@@ -77,16 +102,16 @@ NextGeneration classic_generation(const BreedProblem& problem, const BreedSettin
 
   NextGeneration next;
   next.tried = static_cast<std::uint32_t>(candidates.size());
-  std::size_t at = 0;
-  for (const GenesisChild& child : children) {
-    const bool viable = child.changed && appraisals[at].viable;
-    if (viable) {
-      next.members.push_back(member_of(std::move(candidates[at]), parents));
-    } else {
-      next.members.push_back(kept_copy(parents[child.parent], 0));
+  for (std::size_t i = 0, at = 0; i < children.size(); ++i) {
+    if (copied[i]) {
+      next.members.push_back(kept_copy(parents[*copied[i]], 0));
+      continue;
     }
-    next.refused += child.changed && !viable;
-    at += child.changed;
+    const bool viable = appraisals[at].viable;
+    next.members.push_back(viable ? member_of(std::move(candidates[at]), parents)
+                                  : kept_copy(parents[children[i].parent], 0));
+    next.refused += !viable;
+    ++at;
   }
   if (next.refused > 0) next.note = fmt::format("{} children were not viable: parents stand in", next.refused);
   return next;
@@ -287,12 +312,13 @@ NextGeneration free_generation(const BreedProblem& problem, const BreedSettings&
 }  // namespace
 
 NextGeneration next_generation(const BreedProblem& problem, const BreedSettings& settings,
-                               const std::vector<Member>& parents, std::uint32_t number, MemberId first_id) {
+                               const std::vector<Member>& parents, std::uint32_t number, MemberId first_id,
+                               std::span<const double> worst_before) {
   CHECK(problem.graph && problem.appraiser);
   validate(settings);
   if (parents.empty()) throw Error("a generation needs parents, got none");
   NextGeneration next = settings.method == BreedMethod::classic
-                            ? classic_generation(problem, settings, parents, number)
+                            ? classic_generation(problem, settings, parents, number, worst_before)
                             : free_generation(problem, settings, parents, number);
   take_ids(next.members, first_id);
   return next;

@@ -3,6 +3,7 @@
 // inputs, so that a history can be replayed to the byte.
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,13 +42,16 @@ void keep_favourites(const BreedSettings& settings, const std::vector<Member>& p
 /// `parents`: the present generation, at least one, any number. `number`: of the generation made, from 1.
 ///
 /// classic: Genesis on ratings (search/genesis_strings.h); all equal: everybody is as likely to have children. What
-/// is not viable is replaced by its first parent. free: the `keep` best that were rated are copied with their rating,
+/// is not viable is replaced by its first parent; a child that is one of the parents to the bit is a copy of that one.
+/// `worst_before`: the least ratings of the generations before `parents`, the nearest first, for the scaling window; as
+/// many count as the window reaches back. free: the `keep` best that were rated are copied with their rating,
 /// some newcomers are drawn, the rest are children of parents chosen by rating. Where there are targets, children are
 /// bred in surplus and the better scores are taken; what is not viable is dropped; children equal to a parent or to
 /// each other are bred again. Where viable children are not to be had in kMostTries per place, a copy of a parent
 /// stands in. Copies keep their rating, so nobody is asked about them again. Throws Error for bad settings or no
 /// parents, and for classic where why_not_start_draws (search/genesis_encoding.h) says something.
 NextGeneration next_generation(const BreedProblem& problem, const BreedSettings& settings,
-                               const std::vector<Member>& parents, std::uint32_t number, MemberId first_id);
+                               const std::vector<Member>& parents, std::uint32_t number, MemberId first_id,
+                               std::span<const double> worst_before = {});
 
 }  // namespace espalier

@@ -168,6 +168,7 @@ Screen next_screen(const BreedProblem& problem, const BreedSettings& settings, c
   CHECK(problem.graph && problem.appraiser);
   validate(settings);
   validate(screen);
+  if (parents.empty()) throw Error("a generation needs parents, got none");
   Screen result;
   BreedSettings straight = settings;
   straight.lean = 0;  // the model knows the way better

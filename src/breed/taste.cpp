@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 
 #include <Eigen/Cholesky>
@@ -183,7 +184,8 @@ Taste::Taste(const std::vector<Opinion>& opinions, const std::vector<Comparison>
              const TasteSettings& settings)
     : model_(std::make_unique<Model>()) {
   // Sums depend on their order, and Eigen's on the sizes of the processor's caches: these are now everybody's.
-  Eigen::setCpuCacheSizes(32 << 10, 256 << 10, 2 << 20);
+  static std::once_flag once;
+  std::call_once(once, [] { Eigen::setCpuCacheSizes(32 << 10, 256 << 10, 2 << 20); });
   validate(settings);
   check(opinions, comparisons);
   std::vector<Opinion> rated = opinions;

@@ -28,6 +28,10 @@ void declare_attributes(CLI::App* verb, std::vector<std::string>& attributes) {
       ->take_all();
 }
 
+void declare_grammar(CLI::App* verb, std::string& grammar) {
+  verb->add_option("--grammar", grammar, "Grammar of a derivation, if it lies neither in a run's folder nor near it");
+}
+
 void declare_settings(CLI::App* verb, std::vector<std::string>& settings) {
   verb->add_option("--set", settings, "Change a setting of the scene: --set volume.cells=500000 (repeatable)")
       ->expected(1)->take_all();
@@ -84,7 +88,7 @@ void declare_similarity(CLI::App& app, SimilarityOptions& o, std::function<int()
   verb->add_option("models", o.models, "Two or more: .derivation.json, folders of runs (their best), pictures made of "
                                        "derivations, or mesh files")
       ->required();
-  verb->add_option("--grammar", o.grammar, "Grammar of derivations, if it is not in a run's folder");
+  declare_grammar(verb, o.grammar);
   declare_attributes(verb, o.attributes);
   verb->add_option("--pairs", o.pairs, "Pairs of points per voxel; more make less noise (30)");
   verb->add_option("--grid", o.grid, "Voxels along each axis, 1 to 16 (4)");

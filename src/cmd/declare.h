@@ -14,6 +14,7 @@ class App;
 namespace espalier {
 
 void declare_attributes(CLI::App* verb, std::vector<std::string>& attributes);
+void declare_grammar(CLI::App* verb, std::string& grammar);
 void declare_settings(CLI::App* verb, std::vector<std::string>& settings);
 void declare_threads(CLI::App* verb, int& threads);
 

@@ -170,7 +170,7 @@ void declare_file_verbs(CLI::App& app, CommandLine& line) {
   CLI::App* inspect = app.add_subcommand("inspect", "Show where a file came from: seed, settings, inputs, score");
   inspect->add_option("file", line.inspect.file, "Any model, picture or JSON that espalier wrote")->required();
   inspect->add_flag("--genes", line.inspect.genes, "List a derivation's genes: number, path, rule, draws");
-  inspect->add_option("--grammar", line.inspect.grammar, "For --genes: its grammar, if it is not in a run's folder");
+  declare_grammar(inspect, line.inspect.grammar);
   inspect->add_flag("--json", line.inspect.json, "As JSON");
   inspect->callback([&line] { line.verb = [&line] { return inspect_verb(line.inspect); }; });
 
@@ -183,7 +183,7 @@ void declare_file_verbs(CLI::App& app, CommandLine& line) {
   CLI::App* exporting = app.add_subcommand("export", "Write a derivation's model in another format");
   ExportVerbOptions& o = line.export_;
   exporting->add_option("derivation", o.derivation, "A .derivation.json")->required();
-  exporting->add_option("--grammar", o.grammar, "Its grammar, if it is not in a run's folder");
+  declare_grammar(exporting, o.grammar);
   declare_attributes(exporting, o.attributes);
   exporting->add_option("-o,--out", o.out, "File to write: .glb .obj .ply .stl")->required();
   exporting->add_option("--joints", o.joints, "smooth: what touches end to end becomes one tube; separate: as it is");
@@ -207,7 +207,7 @@ void declare_render(CLI::App& app, CommandLine& line) {
   RenderOptions& o = line.render;
   verb->add_option("file", o.file, "A .derivation.json, a file made of one, or the folder of a run (its best)")
       ->required();
-  verb->add_option("--grammar", o.grammar, "Its grammar, if it is not in a run's folder");
+  declare_grammar(verb, o.grammar);
   declare_attributes(verb, o.attributes);
   verb->add_option("-o,--out", o.out, "Picture to write: .png");
   declare_render_camera(verb, o);
@@ -231,7 +231,7 @@ void declare_graph(CLI::App& app, CommandLine& line) {
   CLI::App* verb = app.add_subcommand("graph", "Draw a grammar's generator graph, or a derivation's tree, as SVG");
   GraphOptions& o = line.graph;
   verb->add_option("file", o.file, "Grammar file (.esp) or .derivation.json")->required();
-  verb->add_option("--grammar", o.grammar, "Grammar of a derivation, if it is not in a run's folder");
+  declare_grammar(verb, o.grammar);
   declare_attributes(verb, o.attributes);
   verb->add_option("-o,--out", o.out, "File to write: .svg (standard output)");
   verb->callback([&line] { line.verb = [&line] { return graph_verb(line.graph); }; });
@@ -261,7 +261,7 @@ void declare_breed(CLI::App& app, CommandLine& line) {
       ->check(CLI::Range(0.0, 1.0));
   verb->add_option("--seed", o.seed, "Seed (1)")->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
   verb->add_option("--format", o.format, "glb, obj, ply or stl (glb)");
-  verb->add_option("--grammar", o.grammar, "Of the derivation (the copy in its run's folder)");
+  declare_grammar(verb, o.grammar);
   declare_attributes(verb, o.attributes);
   declare_threads(verb, o.threads);
   verb->add_option("--out", o.out, "Folder to write (out/NAME-species)");

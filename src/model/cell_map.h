@@ -17,9 +17,11 @@ class CellMap {
  public:
   static constexpr std::size_t kMostInCell = 256;  // looked at; what is crowded beyond is not found
 
-  /// A thing of about `size` m that fills a box; boxes larger than a few sizes are slow.
+  /// A thing of about `size` m that fills a box. What is much wider than its size may be near anything.
   void add(std::uint32_t thing, const Bounds& box, float size) {
     const int level = level_of(size);
+    // The last level is of all that is larger, and for its largest the cells are small.
+    if (level == kLevels / 2 - 1 || !(cells_across(box, level) <= kMostCells)) return wide_.push_back(thing);
     levels_ |= std::uint64_t{1} << (level + kLevels / 2);
     for_each_cell(box, level, [&](std::uint64_t cell) { entries_.emplace_back(cell, thing); });
   }
@@ -28,6 +30,7 @@ class CellMap {
   /// Calls visit(thing) for all that may touch a box; maybe several times, and for some that do not touch.
   template <class Visit>
   void visit_near(const Bounds& box, float least, float most, const Visit& visit) const {
+    for (std::size_t i = 0; i < std::min(wide_.size(), kMostInCell); ++i) visit(wide_[i]);
     const int low = level_of(least), high = level_of(most);
     for (int level = low; level <= high; ++level) {
       if (!(levels_ >> (level + kLevels / 2) & 1)) continue;
@@ -41,6 +44,13 @@ class CellMap {
 
  private:
   static constexpr int kLevels = 64;
+  static constexpr float kMostCells = 125;  // of a thing
+
+  /// Cells that a box touches, about.
+  static float cells_across(const Bounds& box, int level) {
+    const Vec3 cells = box.size() / std::ldexp(4.0f, level) + Vec3(1);
+    return cells.x * cells.y * cells.z;
+  }
 
   static int level_of(float size) {
     const int exponent = size > 0 ? std::ilogb(size) : -kLevels / 2;
@@ -63,6 +73,7 @@ class CellMap {
 
   std::vector<std::pair<std::uint64_t, std::uint32_t>> entries_;  // by cell, then thing
   std::uint64_t levels_ = 0;                                      // that are in use
+  std::vector<std::uint32_t> wide_;                               // in no cell
 };
 
 }  // namespace espalier

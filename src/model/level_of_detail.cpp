@@ -5,9 +5,11 @@
 #include <map>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "base/check.h"
+#include "base/error.h"
 #include "base/hash.h"
 #include "model/limbs.h"
 #include "model/primitives.h"
@@ -94,6 +96,7 @@ class Leveller {
   Parts make() {
     keep_largest();
     const std::uint64_t leaves = thin_foliage();
+    require_few();
     const float growth = leaves == 0 ? 1 : std::min(kLargestGrowth, std::sqrt(static_cast<float>(foliage_.size()) /
                                                                              static_cast<float>(leaves)));
     Merger merger(materials_);
@@ -213,6 +216,16 @@ class Leveller {
       now -= piece.triangles, piece.triangles = 0;
     }
     std::erase_if(solids_, [](const Piece& piece) { return piece.triangles == 0; });
+  }
+
+  /// Merged meshes copy what instances share.
+  void require_few() const {
+    std::uint64_t all = 0;
+    for (const std::vector<Piece>* pieces : {&solids_, &foliage_})
+      for (const Piece& piece : *pieces) all += piece.triangles;
+    if (all <= LevelOfDetail::kMostTriangles) return;
+    throw Error(fmt::format("level of detail {} must have at most {} triangles, got {}", lod_.level,
+                            LevelOfDetail::kMostTriangles, all));
   }
 
   /// Leaves that are not chosen get no triangles. How many are left.

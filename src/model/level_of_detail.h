@@ -16,6 +16,7 @@ enum class Joints : std::uint8_t { separate, smooth };
 
 struct LevelOfDetail {
   static constexpr std::uint32_t kCount = 4;
+  static constexpr std::uint64_t kMostTriangles = 20'000'000;
   /// Triangles of each level that are aimed at, as a share of the finest one's.
   static constexpr float kShares[kCount] = {1, 0.4f, 0.15f, 0.05f};
 

@@ -108,7 +108,7 @@ class Hosts {
   Hosts(const std::vector<Span>& spans, const std::vector<std::uint32_t>& limb_of_span)
       : spans_(spans), limb_of_span_(limb_of_span) {
     for (std::uint32_t i = 0; i < spans.size(); ++i) {
-      const float size = std::max(spans[i].length, spans[i].base_radius);
+      const float size = std::max({spans[i].length, spans[i].base_radius, spans[i].tip_radius});
       boxes_.add(i, box_of(spans[i]), size);
       least_ = std::min(least_, size), most_ = std::max(most_, size);
     }

@@ -11,10 +11,10 @@
 #include "derivation/adapt.h"
 #include "derivation/encode.h"
 #include "io/file.h"
+#include "run/find_grammar.h"
 #include "run/mesh_look.h"
 #include "run/model_files.h"
 #include "run/sample.h"
-#include "run/toml_section.h"
 #include "run/scene_scorer.h"
 #include "run/scene_toml.h"
 #include "run/setup.h"
@@ -51,22 +51,18 @@ std::optional<Provenance> provenance_of(const std::string& path) {
   }
 }
 
-}  // namespace
+/// Which grammar settings name, and the attributes that they set.
+struct NamedGrammar {
+  std::string path;
+  std::map<std::string, std::string> attributes;
+};
 
-std::string settings_folder_of(const std::string& path, const Provenance& provenance) {
-  return (fs::absolute(path).parent_path() / provenance.settings_folder).lexically_normal().string();
-}
-
-LoadedGrammar grammar_of_settings(const std::string& settings, const std::string& name, const std::string& folder,
-                                  const std::map<std::string, std::string>& attributes) {
-  const auto with = [&](std::map<std::string, std::string> set) {
-    for (const auto& [attribute, value] : attributes) set[attribute] = value;
-    return set;
-  };
+NamedGrammar grammar_named_by(const std::string& settings, const std::string& name, const std::string& folder) {
+  const auto in_folder = [&](const std::string& path) { return (fs::path(folder) / path).string(); };
   const TomlValue root = parse_toml(settings, name);
   if (root.find("espalier_sample")) {
     const SampleRequest request = parse_sample_request(settings, name, folder);
-    return load_grammar((fs::path(folder) / request.grammar).string(), with(request.attributes));
+    return {in_folder(request.grammar), request.attributes};
   }
   if (root.find("espalier_breed")) {
     TomlSection bred(root, name, "");
@@ -75,10 +71,38 @@ LoadedGrammar grammar_of_settings(const std::string& settings, const std::string
       TomlSection values(*table, name, "attributes");
       for (const auto& [attribute, value] : table->members) set[attribute] = values.text(attribute).value_or("");
     }
-    return load_grammar((fs::path(folder) / bred.text("grammar").value_or("")).string(), with(set));
+    return {in_folder(bred.text("grammar").value_or("")), set};
   }
   const Scene scene = parse_scene(settings, name, folder);
-  return load_grammar((fs::path(folder) / scene.grammar).string(), with(scene.attributes));
+  return {in_folder(scene.grammar), scene.attributes};
+}
+
+LoadedGrammar load_with(const NamedGrammar& named, const std::map<std::string, std::string>& attributes) {
+  std::map<std::string, std::string> set = named.attributes;
+  for (const auto& [attribute, value] : attributes) set[attribute] = value;
+  return load_grammar(named.path, set);
+}
+
+/// Of a derivation that nobody named a grammar for: that of its settings, or one that lies near it.
+LoadedGrammar grammar_of(const std::string& path, const std::map<std::string, std::string>& attributes) {
+  const std::optional<Provenance> provenance = provenance_of(path);
+  if (!provenance || provenance->settings.empty()) return find_grammar(path, {}, attributes);
+  const NamedGrammar named = grammar_named_by(provenance->settings, path + " (its settings)",
+                                              settings_folder_of(path, *provenance));
+  std::error_code ignored;
+  if (!fs::exists(named.path, ignored)) return find_grammar(path, named.attributes, attributes, named.path);
+  return load_with(named, attributes);
+}
+
+}  // namespace
+
+std::string settings_folder_of(const std::string& path, const Provenance& provenance) {
+  return (fs::absolute(path).parent_path() / provenance.settings_folder).lexically_normal().string();
+}
+
+LoadedGrammar grammar_of_settings(const std::string& settings, const std::string& name, const std::string& folder,
+                                  const std::map<std::string, std::string>& attributes) {
+  return load_with(grammar_named_by(settings, name, folder), attributes);
 }
 
 Provenance made_from(const std::string& derivation_path, bool as_it_is, const LoadedGrammar& grammar,
@@ -111,17 +135,7 @@ Explanation score_derivation(const Scene& scene, const std::string& derivation_p
 LoadedDerivation load_derivation(const std::string& path, const std::string& grammar,
                                  const std::map<std::string, std::string>& attributes) {
   LoadedDerivation loaded;
-  if (grammar.empty()) {
-    const std::optional<Provenance> provenance = provenance_of(path);
-    if (!provenance || provenance->settings.empty()) {
-      read_file(path, kMostDerivationBytes);  // a missing file is named as such
-      throw Error(fmt::format("{}: does not say which grammar it belongs to; name it with --grammar", path));
-    }
-    loaded.grammar = grammar_of_settings(provenance->settings, path + " (its settings)",
-                                         settings_folder_of(path, *provenance), attributes);
-  } else {
-    loaded.grammar = load_grammar(grammar, attributes);
-  }
+  loaded.grammar = grammar.empty() ? grammar_of(path, attributes) : load_grammar(grammar, attributes);
   loaded.derivation =
       read_derivation(*loaded.grammar.graph, path, attributes.empty() ? nullptr : &loaded.adapted);
   return loaded;

@@ -33,7 +33,8 @@ struct LoadedDerivation {
   AdaptedGenes adapted;
 };
 /// A derivation and its grammar: the file named by `grammar`, or (where that is empty) the copy in the folder of the
-/// derivation's run. The derivation is adapted to `attributes`, if any are set anew. Throws Error.
+/// derivation's run, or where there is none the one that lies near (find_grammar.h). The derivation is adapted to
+/// `attributes`, if any are set anew. Throws Error.
 LoadedDerivation load_derivation(const std::string& path, const std::string& grammar,
                                  const std::map<std::string, std::string>& attributes);
 

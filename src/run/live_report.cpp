@@ -5,7 +5,6 @@
 #include <exception>
 #include <filesystem>
 
-#include "base/version.h"
 #include "io/file.h"
 #include "io/png.h"
 #include "run/model_files.h"
@@ -86,16 +85,9 @@ class LiveReport::Painter {
 
  private:
   Provenance provenance() const {
-    Provenance p;
-    p.version = kVersion;
-    p.made_by = "run";
-    p.seed = setup_.scene.seed;
+    Provenance p = provenance_in_folder("run", setup_.scene.seed, 0, setup_.inputs, settings_, result_.best.derivation);
     p.steps = result_.steps;
     p.engine = name_of(setup_.scene.search.engine);
-    p.inputs = setup_.inputs.hashes();
-    p.settings = settings_;
-    p.settings_folder = ".";
-    p.derivation = hash_text(result_.best.derivation);
     p.score = result_.best.score;
     p.optimum = setup_.objective.optimum();
     return p;

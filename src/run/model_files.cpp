@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/check.h"
+#include "base/version.h"
 #include "derivation/encode.h"
 #include "io/export.h"
 #include "io/file.h"
@@ -19,6 +20,20 @@ std::string derivation_document(const GeneratorGraph& graph, const Derivation& d
   CHECK(text.ends_with('}'));
   text.pop_back();
   return text + ",\n \"provenance\": " + to_json(provenance) + "}\n";
+}
+
+Provenance provenance_in_folder(const std::string& made_by, std::uint64_t seed, std::uint64_t index,
+                                const InputFiles& inputs, const std::string& settings, const Derivation& derivation) {
+  Provenance p;
+  p.version = kVersion;
+  p.made_by = made_by;
+  p.seed = seed;
+  p.index = index;
+  p.inputs = inputs.hashes();
+  p.settings = settings;
+  p.settings_folder = ".";
+  p.derivation = hash_text(derivation);
+  return p;
 }
 
 ModelFiles::ModelFiles(const GeneratorGraph& graph, const MeshTable& meshes, const TextureTable& textures,

@@ -10,6 +10,7 @@
 #include "model/expand.h"
 #include "model/texture_table.h"
 #include "render/render.h"
+#include "run/input_files.h"
 
 namespace espalier {
 
@@ -50,6 +51,11 @@ class ModelFiles {
 /// encode() with the provenance as a member, ending with a newline.
 std::string derivation_document(const GeneratorGraph& graph, const Derivation& derivation,
                                 const Provenance& provenance);
+
+/// What a file says that shows number `index` of what `settings` make, in a folder with its inputs and these settings.
+/// `made_by`: see Provenance.
+Provenance provenance_in_folder(const std::string& made_by, std::uint64_t seed, std::uint64_t index,
+                                const InputFiles& inputs, const std::string& settings, const Derivation& derivation);
 
 /// 64-bit hash as 16 hex digits: how provenance names a derivation.
 std::string hash_text(const Derivation& derivation);

@@ -49,17 +49,11 @@ const Individual& ResultWriter::individual(std::size_t index) const {
 }
 
 Provenance ResultWriter::provenance(std::size_t index, const std::string& settings_folder) const {
-  Provenance p;
-  p.version = kVersion;
-  p.made_by = "run";
-  p.seed = setup_.scene.seed;
+  Provenance p = provenance_in_folder("run", setup_.scene.seed, index, setup_.inputs, settings_,
+                                      individual(index).derivation);
   p.steps = result_.steps;
-  p.index = index;
   p.engine = name_of(setup_.scene.search.engine);
-  p.inputs = setup_.inputs.hashes();
-  p.settings = settings_;
   p.settings_folder = settings_folder;
-  p.derivation = hash_text(individual(index).derivation);
   p.score = individual(index).score;
   p.optimum = setup_.objective.optimum();
   return p;

@@ -136,16 +136,7 @@ void SampleSet::draw() {
 }
 
 Provenance SampleSet::provenance(std::size_t index) const {
-  Provenance p;
-  p.version = kVersion;
-  p.made_by = "sample";
-  p.seed = request_.seed;
-  p.index = index;
-  p.inputs = inputs_.hashes();
-  p.settings = settings_;
-  p.settings_folder = ".";
-  p.derivation = hash_text(derivations_[index]);
-  return p;
+  return provenance_in_folder("sample", request_.seed, index, inputs_, settings_, derivations_[index]);
 }
 
 std::vector<std::string> SampleSet::names(SampleFiles which) const {

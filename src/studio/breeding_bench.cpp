@@ -1,7 +1,6 @@
 #include "studio/breeding_bench.h"
 
 #include <algorithm>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -21,11 +20,6 @@ constexpr std::uint32_t kRandomModels = 24;  // that diversity is measured by
 
 }  // namespace
 
-std::unique_ptr<Executor> make_breeding_executor() {
-  const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  return cores > 1 ? make_tbb_executor(cores) : make_serial_executor();
-}
-
 BreedingBench::BreedingBench(ReadBlob read_blob, Executor& executor)
     : executor_(executor), bench_(std::move(read_blob)) {}
 BreedingBench::~BreedingBench() = default;
@@ -38,6 +32,8 @@ void BreedingBench::take(const StoredState& state) {
   looker_.reset();
   scorer_.reset();
   setup_ = std::move(setup);
+  has_targets_ = bench_.scene().has_targets;
+  genesis_bits_ = bench_.scene().scene.search.genesis.bits;
   state_ = state;
   usual_is_exact_ = false;
   features_.clear();

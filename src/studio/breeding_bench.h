@@ -32,7 +32,9 @@ class BreedingBench {
   /// Only when ready, as all that follows.
   const std::shared_ptr<const Setup>& setup() const { return setup_; }
   const GeneratorGraph& graph() const { return setup_->graph(); }
-  bool has_targets() const { return bench_.scene().has_targets; }
+  bool has_targets() const { return has_targets_; }
+  /// Per gene, as the scene wants them of Genesis; none: by the kinds of the draws.
+  const std::vector<std::uint32_t>& genesis_bits() const { return genesis_bits_; }
   const StoredState& state() const { return state_; }
   std::string as_named(const std::string& text) const { return bench_.as_named(text); }
 
@@ -62,6 +64,8 @@ class BreedingBench {
   Workbench bench_;
   StoredState state_;
   std::shared_ptr<const Setup> setup_;
+  bool has_targets_ = false;  // the setup
+  std::vector<std::uint32_t> genesis_bits_;
   std::optional<ViabilitySettings> usual_;  // of ...
   std::string usual_of_;                    // this text
   bool usual_is_exact_ = false;             // and of this very state
@@ -73,8 +77,5 @@ class BreedingBench {
   std::map<std::string, std::vector<double>> features_;
   std::vector<std::vector<double>> random_;
 };
-
-/// All cores: somebody waits for what is bred, and the server's own threads hardly ever work.
-std::unique_ptr<Executor> make_breeding_executor();
 
 }  // namespace espalier::studio

@@ -1,6 +1,7 @@
 #include "studio/breeding_file.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostText = 16u << 20, kMostGrammarBytes = 1'000'000;
+constexpr std::size_t kMostKnownFiles = 2 * Store::kMostFiles;
 constexpr int kMostDepth = 80;
 
 [[noreturn]] void fail(const std::string& what) { throw Error("the breeding file is damaged: " + what); }
@@ -41,15 +43,16 @@ const Json& list_in(const Json& json, const char* key, std::int64_t most) {
   return list;
 }
 
-Json state_json(const StoredState& state, const std::map<std::string, std::string>& bytes) {
+Json state_json(const StoredState& state) {
   Json json = {{"grammar", state.grammar}, {"scene", state.scene}, {"files", Json::array()}};
-  for (const StoredFile& file : state.files) {
-    json["files"].push_back({{"path", file.path}, {"bytes", encode_base64(bytes.at(file.hash))}});
-  }
+  for (const StoredFile& file : state.files) json["files"].push_back({{"path", file.path}, {"hash", file.hash}});
   return json;
 }
 
-StoredState read_state(const Json& json, std::map<std::string, std::string>& bytes) {
+/// What is known of files by path and hash: to look into one takes a while.
+using KnownFiles = std::map<std::pair<std::string, std::string>, StoredFile>;
+
+StoredState read_state(const Json& json, const std::map<std::string, std::string>& bytes, KnownFiles& known) {
   StoredState state;
   state.grammar = text_in(json, "grammar", kMostGrammarBytes);
   state.scene = text_in(json, "scene", kMostGrammarBytes);
@@ -57,10 +60,15 @@ StoredState read_state(const Json& json, std::map<std::string, std::string>& byt
   for (const Json& item : list_in(json, "files", static_cast<std::int64_t>(Store::kMostFiles))) {
     const std::string path = text_in(item, "path", 200);
     require(is_plain_path(path), fmt::format("a file \"{}\" leads elsewhere", path));
-    std::string content = decode_base64(text_in(item, "bytes", kMostBreedingFileBytes));
-    StoredFile file = describe_file(path, content);
-    bytes[file.hash] = std::move(content);
-    state.files.push_back(std::move(file));
+    const std::string hash = text_in(item, "hash", 64);
+    const auto content = bytes.find(hash);
+    require(content != bytes.end(), fmt::format("the bytes of {} are not there", path));
+    auto at = known.find({path, hash});
+    if (at == known.end()) {
+      require(known.size() < kMostKnownFiles, fmt::format("it has more than {} files", kMostKnownFiles));
+      at = known.emplace(std::pair(path, hash), describe_file(path, content->second)).first;
+    }
+    state.files.push_back(at->second);
   }
   return state;
 }
@@ -73,7 +81,9 @@ StoredGeneration read_generation(const Json& json, const std::vector<StoredState
   one.label = text_in(json, "label", 200);
   one.state = states.at(json.at("state").get<std::size_t>());
   one.recipe = text_in(json, "recipe");
-  parse_recipe(one.recipe);
+  const BreedingRecipe recipe = parse_recipe(one.recipe);
+  require(recipe.number == number, fmt::format("the recipe of generation {} is of generation {}", number, recipe.number));
+  require(one.parent > 0 || recipe.kind == RecipeKind::first, fmt::format("generation {} comes from nowhere", number));
   one.seconds = json.at("seconds").get<double>();
   if (json.contains("diversity")) one.diversity = json.at("diversity").get<double>();
   return one;
@@ -100,7 +110,10 @@ BredRow read_individual(const Json& json, const WholeBreeding& whole) {
           name + " has no derivation");
   row.edited = json.at("edited").get<bool>();
   row.present = json.at("present").get<bool>();
-  if (json.contains("rating")) row.rating = json.at("rating").get<double>();
+  if (json.contains("rating")) {
+    row.rating = json.at("rating").get<double>();
+    require(std::abs(*row.rating) <= kMostRating, fmt::format("{}'s rating must be {} .. {}", name, -kMostRating, kMostRating));
+  }
   if (json.contains("role")) row.role = text_in(json, "role", 20);
   return row;
 }
@@ -120,14 +133,16 @@ Json breeding_json(const WholeBreeding& whole) {
   const BreedingHead& head = whole.head;
   Json json = {{"espalier_breeding", kBreedingFileVersion}, {"name", head.summary.name}, {"seed", head.seed},
                {"settings", head.settings}, {"locked", head.locked}, {"generation", head.generation}};
+  json["files"] = Json::object();
   for (const char* list : {"states", "generations", "individuals", "comparisons"}) json[list] = Json::array();
+  for (const auto& [hash, bytes] : whole.files) json["files"][hash] = encode_base64(bytes);
   std::vector<const StoredState*> states;
   for (const StoredGeneration& one : whole.generations) {
     std::size_t state = 0;
     while (state < states.size() && !(*states[state] == one.state)) ++state;
     if (state == states.size()) {
       states.push_back(&one.state);
-      json["states"].push_back(state_json(one.state, whole.files));
+      json["states"].push_back(state_json(one.state));
     }
     json["generations"].push_back({{"number", one.number},
                                    {"parent", one.parent},
@@ -167,9 +182,15 @@ WholeBreeding parse_breeding(const Json& json) {
     whole.head.settings = settings_text(settings);
     whole.head.summary.method = name_of(breed_settings(settings).method);
     whole.head.locked = locked_text(read_locked(text_in(json, "locked")));
+    for (const auto& [hash, text] : json.at("files").items()) {
+      std::string bytes = decode_base64(text.get_ref<const std::string&>());
+      require(content_hash(bytes) == hash, fmt::format("file {}", hash.substr(0, 64)));
+      whole.files.emplace(hash, std::move(bytes));
+    }
     std::vector<StoredState> states;
+    KnownFiles known;
     for (const Json& item : list_in(json, "states", BreedingStore::kMostGenerations))
-      states.push_back(read_state(item, whole.files));
+      states.push_back(read_state(item, whole.files, known));
     for (const auto& [hash, text] : json.at("derivations").items()) {
       require(content_hash(text.get_ref<const std::string&>()) == hash,
               fmt::format("derivation {}", hash.substr(0, 64)));
@@ -189,6 +210,10 @@ WholeBreeding parse_breeding(const Json& json) {
       const auto number = static_cast<std::int64_t>(whole.comparisons.size() + 1);
       whole.comparisons.push_back(
           {number, item.at("better").get<std::int64_t>(), item.at("worse").get<std::int64_t>()});
+      for (const std::int64_t id : {whole.comparisons.back().better, whole.comparisons.back().worse}) {
+        require(std::ranges::binary_search(whole.individuals, id, {}, &BredRow::id),
+                fmt::format("comparison {} is of an unknown individual", number));
+      }
     }
     require_parents(whole);
     return whole;

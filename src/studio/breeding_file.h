@@ -11,7 +11,7 @@
 
 namespace espalier::studio {
 
-inline constexpr int kBreedingFileVersion = 1;
+inline constexpr int kBreedingFileVersion = 2;
 inline constexpr std::size_t kMostBreedingFileBytes = 96u << 20;
 
 /// Throws Error where it would be too large.

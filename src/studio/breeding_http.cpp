@@ -47,32 +47,30 @@ ShownModel shown_model(Store& store, BreedingBench& bench, std::int64_t project,
 }
 
 HttpResponse model_file(Store& store, std::int64_t project, std::int64_t session, std::int64_t individual,
-                        const std::string& format) {
-  const std::unique_ptr<Executor> executor = make_breeding_executor();
-  BreedingBench bench([&](const std::string& hash) { return store.blob(project, hash); }, *executor);
+                        const std::string& format, Executor& executor) {
+  BreedingBench bench([&](const std::string& hash) { return store.blob(project, hash); }, executor);
   const ShownModel shown = shown_model(store, bench, project, session, individual);
   return export_model(shown, format, fmt::format("{} {}", store.open(project).project.name, individual));
 }
 
 HttpResponse species_file(Store& store, std::int64_t project, std::int64_t session, std::int64_t individual,
-                          std::int64_t count, std::int64_t most_triangles) {
+                          std::int64_t count, std::int64_t most_triangles, Executor& executor) {
   if (count < 1 || count > kMostSpecies) throw Error(fmt::format("a species pack has 1 .. {} models", kMostSpecies));
   if (most_triangles < 0) throw Error("the limit of triangles must be a number; 0 is none");
-  const std::unique_ptr<Executor> executor = make_breeding_executor();
-  BreedingBench bench([&](const std::string& hash) { return store.blob(project, hash); }, *executor);
+  BreedingBench bench([&](const std::string& hash) { return store.blob(project, hash); }, executor);
   const ShownModel shown = shown_model(store, bench, project, session, individual);
   const auto seed = static_cast<std::uint64_t>(BreedingStore(store).open(project, session).seed);
   const std::string stem = fmt::format("species-{}", individual);
   return {
       200, "application/zip",
-      species_zip(bench, *executor, shown.derivation, static_cast<std::uint32_t>(count), most_triangles, seed, stem),
+      species_zip(bench, executor, shown.derivation, static_cast<std::uint32_t>(count), most_triangles, seed, stem),
       stem + ".zip"};
 }
 
 }  // namespace
 
 BreedingAnswer answer_breeding(Store& store, std::int64_t project, const HttpRequest& request,
-                               const std::string& rest) {
+                               const std::string& rest, Executor& executor) {
   const std::vector<std::string> parts = split(rest);
   if (rest == "import") {
     if (request.method != "POST") return {{405, "text/plain", "POST\n"}};
@@ -88,10 +86,11 @@ BreedingAnswer answer_breeding(Store& store, std::int64_t project, const HttpReq
     return {{200, "application/json", breeding_file(whole), fmt::format("breeding-{}.breeding", session)}};
   }
   if (what == "replay" && parts.size() == 2)
-    return {{200, "text/plain; charset=utf-8", to_text(replay(store, project, session))}};
-  if (what == "model" && parts.size() == 4) return {model_file(store, project, session, number_of(parts[2]), parts[3])};
+    return {{200, "text/plain; charset=utf-8", to_text(replay(store, project, session, executor))}};
+  if (what == "model" && parts.size() == 4) return {model_file(store, project, session, number_of(parts[2]), parts[3], executor)};
   if (what == "species" && parts.size() == 5) {
-    return {species_file(store, project, session, number_of(parts[2]), number_of(parts[3]), number_of(parts[4]))};
+    return {species_file(store, project, session, number_of(parts[2]), number_of(parts[3]), number_of(parts[4]),
+                         executor)};
   }
   return {{404, "text/plain", "there is no such thing\n"}};
 }

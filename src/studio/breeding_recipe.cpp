@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 #include "breed/screen.h"
 #include "breed/species.h"
 #include "studio/breeding_settings.h"
+#include "studio/breeding_store.h"
 
 namespace espalier::studio {
 namespace {
@@ -20,6 +22,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 3> kKinds = {"first", "bred", "like"};
 constexpr std::size_t kMostParents = 1000, kMostOpinions = 2000;
+
+double rating_in(const Json& json) {
+  const double rating = json.get<double>();
+  if (!(std::abs(rating) <= kMostRating)) throw Error(fmt::format("a rating must be {} .. {}", -kMostRating, kMostRating));
+  return rating;
+}
 
 /// The parents as members; `lost`: how many the grammar has no place for, and why the last of them.
 std::vector<Member> members_of(const BreedingBench& bench, const BreedingRecipe& recipe, const ReadText& read_text,
@@ -69,6 +77,38 @@ MadeGeneration relatives(BreedProblem problem, const BreedingRecipe& recipe, con
   return made;
 }
 
+/// The founders, relatives of each on two of three of the other places, and on the rest what the grammar grows else.
+MadeGeneration first_screen(const BreedProblem& problem, const BreedSettings& settings, MemberId first_id,
+                            const std::vector<Member>& parents) {
+  std::vector<Derivation> founders;
+  for (const Member& parent : parents) founders.push_back(parent.derivation);
+  const std::size_t own = std::min<std::size_t>(founders.size(), settings.population);
+  std::vector<std::size_t> kin_of;  // of each relative, the founder
+  const std::size_t kin = own == 0 ? 0 : (settings.population - own) * 2 / 3;
+  for (std::size_t f = 0; f < own && kin > 0; ++f) {
+    SpeciesSettings wanted;
+    wanted.count = static_cast<std::uint32_t>(kin / own + (f < kin % own));
+    wanted.strength = settings.strength;
+    if (wanted.count == 0) break;
+    BreedProblem of_founder = problem;
+    of_founder.draw = static_cast<std::uint32_t>(f);
+    for (Derivation& sibling : find_species(of_founder, parents[f].derivation, wanted).siblings) {
+      founders.push_back(std::move(sibling));
+      kin_of.push_back(f);
+    }
+  }
+  FirstGeneration first = first_generation(problem, settings, founders, first_id);
+  for (std::size_t i = 0; i < kin_of.size(); ++i) {
+    Member& relative = first.members[parents.size() + i];
+    relative.origin = Origin::sibling;
+    relative.parents = {first.members[kin_of[i]].id};
+  }
+  MadeGeneration made;
+  made.members = std::move(first.members);
+  if (!first.note.empty()) made.notes.push_back(std::move(first.note));
+  return made;
+}
+
 }  // namespace
 
 std::string to_json(const BreedingRecipe& recipe) {
@@ -80,6 +120,7 @@ std::string to_json(const BreedingRecipe& recipe) {
     if (parent.rating) item["rating"] = *parent.rating;
     json["parents"].push_back(std::move(item));
   }
+  if (!recipe.worst_before.empty()) json["worst_before"] = recipe.worst_before;
   for (const RecipeOpinion& one : recipe.opinions) json["opinions"].push_back({one.derivation, one.rating});
   for (const RecipeComparison& one : recipe.comparisons) json["comparisons"].push_back({one.better, one.worse});
   return json.dump();
@@ -96,18 +137,26 @@ BreedingRecipe parse_recipe(std::string_view text) {
     recipe.seed = json.at("seed").get<std::uint64_t>();
     recipe.number = json.at("number").get<std::uint32_t>();
     recipe.first_id = json.at("first_id").get<std::int64_t>();
+    if (recipe.number < 1 || recipe.number > BreedingStore::kMostGenerations)
+      throw Error(fmt::format("its number must be 1 .. {}, got {}", BreedingStore::kMostGenerations, recipe.number));
+    if (recipe.first_id < 1 || recipe.first_id > BreedingStore::kMostIndividuals)
+      throw Error(fmt::format("its first individual must be 1 .. {}, got {}", BreedingStore::kMostIndividuals, recipe.first_id));
     recipe.locked = read_locked(json.at("locked").get<std::string>());
     if (json.at("parents").size() > kMostParents) throw Error(fmt::format("it has more than {} parents", kMostParents));
     for (const Json& item : json.at("parents")) {
       RecipeParent parent{item.at("id").get<std::int64_t>(), item.at("derivation").get<std::string>(), {}};
-      if (item.contains("rating")) parent.rating = item.at("rating").get<double>();
+      if (item.contains("rating")) parent.rating = rating_in(item.at("rating"));
       recipe.parents.push_back(std::move(parent));
     }
+    if (recipe.parents.empty() && recipe.kind != RecipeKind::first) throw Error("it has no parents");
+    const Json before = json.value("worst_before", Json::array());
+    if (before.size() > BreedingStore::kMostGenerations) throw Error("it remembers more generations than there are");
+    for (const Json& one : before) recipe.worst_before.push_back(rating_in(one));
     for (const char* list : {"opinions", "comparisons"}) {
       if (json.contains(list) && json.at(list).size() > kMostOpinions)
         throw Error(fmt::format("it has more than {} {}", kMostOpinions, list));
     }
-    for (const Json& one : json.value("opinions", Json::array())) recipe.opinions.push_back({one.at(0), one.at(1)});
+    for (const Json& one : json.value("opinions", Json::array())) recipe.opinions.push_back({one.at(0), rating_in(one.at(1))});
     for (const Json& one : json.value("comparisons", Json::array()))
       recipe.comparisons.push_back({one.at(0), one.at(1)});
     return recipe;
@@ -157,17 +206,16 @@ MadeGeneration make_generation(BreedingBench& bench, const BreedingRecipe& recip
   std::string why;
   const std::vector<Member> parents = members_of(bench, recipe, read_text, lost, why);
   const BreedProblem problem = bench.problem(recipe.settings, recipe.seed, recipe.locked);
-  const BreedSettings settings = breed_settings(recipe.settings);
+  BreedSettings settings = breed_settings(recipe.settings);
+  settings.genesis.bits = bench.genesis_bits();
   const auto first_id = static_cast<MemberId>(recipe.first_id);
   MadeGeneration made;
   if (lost > 0) made.notes.push_back(fmt::format("{} of {} parents: {}", lost, recipe.parents.size(), why));
   if (parents.empty() && !recipe.parents.empty()) throw Error(why);
   if (recipe.kind == RecipeKind::first) {
-    std::vector<Derivation> founders;
-    for (const Member& parent : parents) founders.push_back(parent.derivation);
-    FirstGeneration first = first_generation(problem, settings, founders, first_id);
+    MadeGeneration first = first_screen(problem, settings, first_id, parents);
     made.members = std::move(first.members);
-    if (!first.note.empty()) made.notes.push_back(std::move(first.note));
+    made.notes.insert(made.notes.end(), first.notes.begin(), first.notes.end());
   } else if (recipe.kind == RecipeKind::like) {
     MadeGeneration kin = relatives(problem, recipe, settings, parents.at(0));
     made.members = std::move(kin.members);
@@ -182,7 +230,7 @@ MadeGeneration make_generation(BreedingBench& bench, const BreedingRecipe& recip
                                      screen.generation.refused));
     if (!screen.generation.note.empty()) made.notes.push_back(screen.generation.note);
   } else {
-    NextGeneration next = next_generation(problem, settings, parents, recipe.number, first_id);
+    NextGeneration next = next_generation(problem, settings, parents, recipe.number, first_id, recipe.worst_before);
     made.members = std::move(next.members);
     if (next.refused > 0) made.notes.push_back(fmt::format("{} of {} children were refused", next.refused, next.tried));
     if (!next.note.empty()) made.notes.push_back(std::move(next.note));

@@ -53,6 +53,7 @@ struct BreedingRecipe {
   std::int64_t first_id = 1;        // of its individuals
   std::vector<api::DrawPlace> locked = {};
   std::vector<RecipeParent> parents = {};
+  std::vector<double> worst_before = {};  // classic: the least ratings of the generations before, the nearest first
   // With taste alone:
   std::vector<RecipeOpinion> opinions = {};
   std::vector<RecipeComparison> comparisons = {};

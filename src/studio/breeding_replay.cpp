@@ -30,11 +30,10 @@ bool same(const GeneratorGraph& graph, const std::vector<Member>& members, const
 
 }  // namespace
 
-ReplayReport replay(Store& store, std::int64_t project, std::int64_t session) {
+ReplayReport replay(Store& store, std::int64_t project, std::int64_t session, Executor& executor) {
   BreedingStore breedings(store);
   breedings.open(project, session);
-  const std::unique_ptr<Executor> executor = make_breeding_executor();
-  BreedingBench bench([&](const std::string& hash) { return store.blob(project, hash); }, *executor);
+  BreedingBench bench([&](const std::string& hash) { return store.blob(project, hash); }, executor);
   const ReadText read_text = [&](const std::string& hash) { return breedings.text(session, hash); };
   const std::vector<BredRow> all = breedings.individuals(session);
   ReplayReport report;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/executor.h"
 #include "studio/breeding_store.h"
 
 namespace espalier::studio {
@@ -16,7 +17,7 @@ struct ReplayReport {
 };
 
 /// Throws Error where a generation cannot be made at all, naming it.
-ReplayReport replay(Store& store, std::int64_t project, std::int64_t session);
+ReplayReport replay(Store& store, std::int64_t project, std::int64_t session, Executor& executor);
 
 /// "12 generations came out the same", or which did not.
 std::string to_text(const ReplayReport& report);

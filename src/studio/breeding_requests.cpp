@@ -54,7 +54,7 @@ bool is_breeding(const api::Request& request) {
 /// ask.
 bool BreedingRoom::skips_ahead(RoomRequest& request) {
   const std::lock_guard lock(mutex_);
-  if (requests_.empty() || requests_.front().socket != request.socket) return false;
+  if (requests_.empty() || requests_.front().leaves || requests_.front().socket != request.socket) return false;
   api::Request& after = requests_.front().request;
   if (const auto* blend = std::get_if<api::Blend>(&request.request)) {
     const auto* next = std::get_if<api::Blend>(&after);

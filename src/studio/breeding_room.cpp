@@ -1,22 +1,26 @@
 #include "studio/breeding_room.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "studio/breeding_text.h"
 #include "studio/model_message.h"
+#include "studio/quietly.h"
 
 namespace espalier::studio {
 
 BreedingRoom::BreedingRoom(Store& store, std::int64_t project, RoomListener& listener, StoredState state)
-    : project_store_(store), store_(store), project_(project), listener_(listener), executor_(make_breeding_executor()),
-      bench_([&store, project](const std::string& hash) { return store.blob(project, hash); }, *executor_),
+    : project_store_(store), store_(store), project_(project), listener_(listener),
+      executor_(give_up_at_, Cores::all),
+      bench_([&store, project](const std::string& hash) { return store.blob(project, hash); }, executor_),
       state_(std::move(state)), thread_([this] { run(); }) {}
 
 BreedingRoom::~BreedingRoom() {
   {
     const std::lock_guard lock(mutex_);
     end_ = true;
+    give_up_at_ = ticks(std::chrono::steady_clock::now());
   }
   changed_.notify_all();
   thread_.join();
@@ -42,8 +46,9 @@ void BreedingRoom::post(RoomRequest request) {
 
 void BreedingRoom::leave(const WebSocketPtr& socket) {
   const std::lock_guard lock(mutex_);
-  if (std::erase(pages_, socket) == 0) return;
-  left_ = true;
+  std::erase(pages_, socket);
+  // It may have asked to come in, and that may not have been answered yet.
+  requests_.push_back({.socket = socket, .request = {}, .number = {}, .leaves = true});
   changed_.notify_all();
 }
 
@@ -58,32 +63,51 @@ void BreedingRoom::run() {
   for (;;) {
     std::optional<StoredState> state;
     std::optional<RoomRequest> request;
-    bool empty = false;
     {
       std::unique_lock lock(mutex_);
       const bool idle = !models_missing() && !(session_ && session_->wants_to_reflect());
-      if (idle) changed_.wait(lock, [&] { return end_ || state_ || !requests_.empty() || left_; });
+      if (idle) changed_.wait(lock, [&] { return end_ || state_ || !requests_.empty(); });
       if (end_) return;
       std::swap(state, state_);
       if (!requests_.empty()) {
         request = std::move(requests_.front());
         requests_.pop_front();
       }
-      empty = left_ && pages_.empty() && !request;
-      left_ = left_ && request;
+    }
+    if (state) newest_ = std::move(state);
+    try {
+      // Nobody breeds: what the grammar has become is found out when somebody does.
+      if (newest_ && (session_ || (request && !request->leaves))) adopt(*std::exchange(newest_, {}));
+    } catch (const std::exception& error) {
+      fail(error.what());
     }
     try {
-      if (state) adopt(*state);
-      if (empty) close_session();
-      if (request) answer(*request);
+      if (request && request->leaves) see_off(request->socket);
+      else if (request) answer(*request);
       else if (models_missing()) make_models();
       else if (session_ && session_->reflect()) tell_pages(text());
     } catch (const std::exception& error) {
-      tell_pages(to_text(api::Log{{}, api::LogLevel::error, error.what()}));
-      // What cannot be made is not tried for ever.
-      close_session();
+      fail(error.what());
     }
   }
+}
+
+/// The last page to leave closes the session.
+void BreedingRoom::see_off(const WebSocketPtr& socket) {
+  bool empty = false;
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase(pages_, socket);
+    empty = pages_.empty();
+  }
+  if (empty) close_session();
+}
+
+/// What cannot be made is not tried for ever.
+void BreedingRoom::fail(const char* why) noexcept {
+  quietly([&] { tell_pages(to_text(api::Log{{}, api::LogLevel::error, why})); });
+  quietly([&] { close_session(); });
+  session_.reset();
 }
 
 void BreedingRoom::adopt(const StoredState& state) {
@@ -158,6 +182,7 @@ void BreedingRoom::open_session(const WebSocketPtr& socket, std::int64_t number)
 }
 
 void BreedingRoom::enter(const WebSocketPtr& socket) {
+  if (socket->out.closed()) return;
   const std::lock_guard lock(mutex_);
   if (std::find(pages_.begin(), pages_.end(), socket) == pages_.end()) pages_.push_back(socket);
 }
@@ -180,7 +205,7 @@ void BreedingRoom::update_makers() {
   makers_setup_ = bench_.setup();
   makers_settings_ = session_->settings();
   const ViabilitySettings viability = bench_.viability(makers_settings_);
-  for (int i = 0; i < executor_->workers(); ++i) {
+  for (int i = 0; i < executor_.workers(); ++i) {
     makers_.push_back(std::make_unique<BredModelMaker>(makers_setup_, bench_.has_targets(), viability));
   }
 }
@@ -206,7 +231,7 @@ void BreedingRoom::make_models() {
     if (missing.size() == makers_.size()) break;
   }
   std::vector<std::pair<std::string, BredModelPtr>> made(missing.size());
-  executor_->for_each(missing.size(), [&](std::size_t i, int worker) {
+  executor_.for_each(missing.size(), [&](std::size_t i, int worker) {
     made[i] = {missing[i]->row.derivation, makers_[static_cast<std::size_t>(worker)]->make(*missing[i]->derivation)};
   });
   for (const auto& [derivation, model] : made) session_->keep_model(derivation, model);

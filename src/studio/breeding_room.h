@@ -17,6 +17,7 @@
 #include <studio_types.h>
 
 #include "studio/breeding_session.h"
+#include "studio/patient_executor.h"
 #include "studio/web_server.h"
 
 namespace espalier::studio {
@@ -42,6 +43,7 @@ struct RoomRequest {
   api::Request request;
   std::optional<std::int64_t> number;
   std::vector<std::string> founders = {};  // derivations as JSON, where a session begins with some
+  bool leaves = false;                     // nothing is asked: the page is in another project, or gone
 };
 
 class BreedingRoom {
@@ -67,6 +69,8 @@ class BreedingRoom {
   bool skips_ahead(RoomRequest& request);
   void answer(RoomRequest& request);
   void adopt(const StoredState& state);
+  void fail(const char* why) noexcept;
+  void see_off(const WebSocketPtr& socket);
 
   // Requests, on the room's thread; what throws Error has changed nothing. False: somebody else answers.
   bool act(const RoomRequest& from, const api::StartBreeding& start);
@@ -105,9 +109,12 @@ class BreedingRoom {
   const std::int64_t project_;
   RoomListener& listener_;
 
+  std::atomic<std::int64_t> give_up_at_{0};  // see PatientExecutor
+
   // Of the room's thread alone.
-  std::unique_ptr<Executor> executor_;
+  PatientExecutor executor_;
   BreedingBench bench_;
+  std::optional<StoredState> newest_;                    // that nobody needed yet
   std::unique_ptr<BreedingSession> session_;
   std::string problem_;                                  // with the project's state
   std::vector<std::unique_ptr<BredModelMaker>> makers_;  // per worker
@@ -124,7 +131,6 @@ class BreedingRoom {
   std::optional<StoredState> state_;  // that is new
   std::vector<WebSocketPtr> pages_;
   std::optional<std::int64_t> open_;
-  bool left_ = false;                 // somebody, since it was looked
   bool end_ = false;
 
   std::thread thread_;

@@ -234,6 +234,21 @@ void BreedingSession::lock(const api::LockDraws& lock) {
           .changes = {{BreedingField::locked, 0, head_.locked, locked_text(next)}}});
 }
 
+/// The least ratings of the generations that the present one comes from, the nearest first, as far as the scaling window
+/// reaches. Who was not rated is neutral.
+std::vector<double> BreedingSession::worst_before() const {
+  const std::size_t reach = breed_settings(settings_).genesis.window;
+  std::map<std::int64_t, std::int64_t> parents;
+  for (const GenerationSummary& one : store_.generations(session_)) parents[one.number] = one.parent;
+  std::vector<double> worst;
+  for (std::int64_t at = parents[head_.generation]; at > 0 && worst.size() < reach; at = parents[at]) {
+    double least = kMostRating;
+    for (const BredRow& row : store_.individuals(session_, at)) least = std::min(least, row.rating.value_or(0));
+    worst.push_back(least);
+  }
+  return worst;
+}
+
 void BreedingSession::make(RecipeKind kind, const std::vector<const RoomIndividual*>& parents,
                            const std::string& label) {
   BreedingRecipe recipe{.kind = kind, .settings = settings_, .seed = static_cast<std::uint64_t>(head_.seed)};
@@ -241,6 +256,7 @@ void BreedingSession::make(RecipeKind kind, const std::vector<const RoomIndividu
   recipe.first_id = head_.last_individual + 1;
   recipe.locked = locked_;
   if (settings_.taste.value()) add_opinions(recipe);
+  if (kind == RecipeKind::bred && settings_.method == api::RoomSettingsMethod::classic) recipe.worst_before = worst_before();
   for (const RoomIndividual* parent : parents)
     recipe.parents.push_back({parent->row.id, parent->row.derivation, parent->row.rating});
   if (recipe.number > BreedingStore::kMostGenerations) {

@@ -80,6 +80,7 @@ class BreedingSession {
  private:
   RoomIndividual& shown(std::int64_t id);
   BreedingChange rating_change(std::int64_t individual, std::optional<double> rating);
+  std::vector<double> worst_before() const;
   void make(RecipeKind kind, const std::vector<const RoomIndividual*>& parents, const std::string& label);
   void commit(BreedingStep step);
   void add_opinions(BreedingRecipe& recipe) const;

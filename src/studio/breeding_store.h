@@ -58,6 +58,8 @@ struct BredRow {
   std::optional<std::string> role = {};
 };
 
+inline constexpr double kMostRating = 1000;  // and its negative the least
+
 struct BreedingComparison {
   std::int64_t number = 0, better = 0, worse = 0;  // number counts those of a session from 1
 };

@@ -8,17 +8,18 @@ namespace espalier::studio {
 
 WholeBreeding BreedingStore::whole(std::int64_t project, std::int64_t session) {
   WholeBreeding whole;
-  whole.head = open(project, session);
-  for (const GenerationSummary& one : generations(session)) {
-    whole.generations.push_back(generation(session, one.number));
-    for (const StoredFile& file : whole.generations.back().state.files) {
-      if (whole.files.count(file.hash) == 0) whole.files[file.hash] = store_.blob(project, file.hash);
-    }
-  }
-  whole.individuals = individuals(session);
-  whole.comparisons = comparisons(session);
   std::map<std::string, std::string> texts;
+  // At one go: people may be breeding meanwhile.
   store_.alone([&](Database& database) {
+    whole.head = open(project, session);
+    for (const GenerationSummary& one : generations(session)) {
+      whole.generations.push_back(generation(session, one.number));
+      for (const StoredFile& file : whole.generations.back().state.files) {
+        if (whole.files.count(file.hash) == 0) whole.files[file.hash] = store_.blob(project, file.hash);
+      }
+    }
+    whole.individuals = individuals(session);
+    whole.comparisons = comparisons(session);
     // All that no state names: derivations, those among them that recipes alone name.
     Statement ask = database.prepare(
         "select hash, bytes from breeding_text where session = ?1 and hash not in (select grammar from "
@@ -48,6 +49,9 @@ std::int64_t BreedingStore::insert(std::int64_t project, const WholeBreeding& wh
       }
     }
     BreedingWriter writer(database, session);
+    BreedingStep texts;  // first: what was there before all generations is never taken for a gesture's
+    texts.texts = whole.derivations;
+    writer.add(texts);
     for (const StoredGeneration& generation : whole.generations) {
       BreedingStep content;
       content.generation = generation;
@@ -56,7 +60,6 @@ std::int64_t BreedingStore::insert(std::int64_t project, const WholeBreeding& wh
     BreedingStep content;
     content.individuals = whole.individuals;
     content.comparisons = whole.comparisons;
-    content.texts = whole.derivations;
     writer.add(content);
     transaction.commit();
   });

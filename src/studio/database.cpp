@@ -38,6 +38,7 @@ Statement Database::prepare(std::string_view text) {
   return {*this, statement};
 }
 
+bool Database::in_transaction() const { return sqlite3_get_autocommit(handle_) == 0; }
 std::int64_t Database::last_row() const { return sqlite3_last_insert_rowid(handle_); }
 
 Statement::~Statement() { sqlite3_finalize(handle_); }
@@ -94,10 +95,20 @@ std::optional<std::string> Statement::maybe_text(int column) const {
   return text(column);
 }
 
+Transaction::Transaction(Database& database) : database_(database), inner_(database.in_transaction()) {
+  database_.run(inner_ ? "savepoint part" : "begin immediate");
+}
+
+void Transaction::commit() {
+  database_.run(inner_ ? "release part" : "commit");
+  done_ = true;
+}
+
 Transaction::~Transaction() {
   if (done_) return;
   try {
-    database_.run("rollback");
+    if (inner_) database_.run("rollback to part"), database_.run("release part");
+    else database_.run("rollback");
   } catch (const Error&) {  // a full disk has rolled it back already
   }
 }

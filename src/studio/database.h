@@ -27,6 +27,7 @@ class Database {
   /// A statement that is kept and used again. Throws Error.
   Statement prepare(std::string_view text);
   std::int64_t last_row() const;
+  bool in_transaction() const;
 
  private:
   friend class Statement;
@@ -68,18 +69,16 @@ class Statement {
 /// Undone at the end of the scope unless committed.
 class Transaction {
  public:
-  explicit Transaction(Database& database) : database_(database) { database_.run("begin immediate"); }
+  /// One within another is a part of it: what it did alone is taken back where it is not committed.
+  explicit Transaction(Database& database);
   ~Transaction();
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;
-  void commit() {
-    database_.run("commit");
-    done_ = true;
-  }
+  void commit();
 
  private:
   Database& database_;
-  bool done_ = false;
+  bool done_ = false, inner_ = false;
 };
 
 }  // namespace espalier::studio

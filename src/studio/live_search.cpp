@@ -3,6 +3,8 @@
 #include <chrono>
 #include <exception>
 
+#include "studio/quietly.h"
+
 namespace espalier::studio {
 
 LiveSearch::LiveSearch(ReadBlob read_blob, LiveListener& listener, std::string shown)
@@ -74,7 +76,7 @@ void LiveSearch::run(std::string shown) {
       if (wishes.any()) work->handle(wishes);
       if (work->running()) work->slice();
     } catch (const std::exception& error) {
-      work->give_up(error.what());
+      quietly([&] { work->give_up(error.what()); });
     }
   }
 }

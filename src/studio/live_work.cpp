@@ -70,11 +70,14 @@ void LiveWork::slice() {
   try {
     do {
       session_->step();
+      note_best();
       spent = budget_spent({.seconds = budget_, .evaluations = {}, .generations = {}}, session_->last());
     } while (spent.empty() && seconds_since(began) < (first ? kFirstSlice : kSlice) && give_up_at_ == 0);
     session_->pause();
     if (may_have_rival_ && session_->last().seconds >= kRivalAfter && spent.empty()) meet_rival();
   } catch (const GivenUp&) {
+    // The step is lost, and with it the search; what was found before is not.
+    if (best_ && (!published_ || best_->score > *published_)) publish(std::move(best_->derivation), best_->steps);
     forget_session();
     tell_state(true);
     return;
@@ -123,8 +126,15 @@ void LiveWork::end_search() {
   tell_state(true);
 }
 
+void LiveWork::note_best() {
+  const double score = session_->engine().best_score();
+  if (best_ && score <= best_->score) return;
+  best_ = Best{score, session_->engine().best().derivation, session_->last().step};
+}
+
 void LiveWork::forget_session() {
   session_.reset();
+  best_.reset();
   running_ = false;
 }
 
@@ -215,6 +225,7 @@ void LiveWork::meet_rival() {
   earlier_ += session_->last().seconds;
   session_ = std::move(rival);
   setup_ = std::move(setup);
+  note_best();
 }
 
 std::optional<Derivation> LiveWork::adapted() const {

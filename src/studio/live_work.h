@@ -67,6 +67,8 @@ class LiveWork {
   bool take(const StoredState& state);
   void problem(const std::string& words);
   void note(api::LogLevel level, const std::string& text) { listener_.noted(level, bench_.as_named(text)); }
+  /// After each step: what is found is not lost with a step that is given up.
+  void note_best();
   void end_search();
   void forget_session();
   /// A setup that starts from the shown model if it can, with its locks if they lead anywhere.
@@ -97,6 +99,12 @@ class LiveWork {
   double seconds_ = 0, budget_ = 0;  // as last asked for, 0: never; when the search is over
   std::uint32_t drawn_ = 0;
   std::int64_t revision_ = 0;
+  struct Best {
+    double score;
+    Derivation derivation;
+    std::uint64_t steps;
+  };
+  std::optional<Best> best_;  // of the session
   std::optional<double> published_;  // best score of the session that was shown
   Rises rises_;
   std::vector<std::string> warned_;

@@ -5,15 +5,16 @@
 namespace espalier::studio {
 namespace {
 
-std::unique_ptr<Executor> make_executor() {
+std::unique_ptr<Executor> make_executor(Cores wanted) {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  return cores > 2 ? make_tbb_executor(cores - 1) : make_serial_executor();
+  const int workers = wanted == Cores::all ? cores : cores - 1;
+  return workers > 1 ? make_tbb_executor(workers) : make_serial_executor();
 }
 
 }  // namespace
 
-PatientExecutor::PatientExecutor(const std::atomic<std::int64_t>& give_up_at)
-    : executor_(make_executor()), give_up_at_(give_up_at) {}
+PatientExecutor::PatientExecutor(const std::atomic<std::int64_t>& give_up_at, Cores cores)
+    : executor_(make_executor(cores)), give_up_at_(give_up_at) {}
 
 void PatientExecutor::for_each(std::size_t n, const std::function<void(std::size_t, int)>& task) {
   executor_->for_each(n, [&](std::size_t i, int worker) {

@@ -68,7 +68,12 @@ std::string project_file(const WholeProject& project) {
     if (!one.picture.empty()) json["favourites"].back()["picture"] = encode_base64(one.picture);
   }
   for (const WholeBreeding& one : project.breedings) json["breedings"].push_back(breeding_json(one));
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (text.size() > kMostProjectFileBytes) {
+    throw Error(fmt::format("a project file has at most {} bytes, this one would have {}: export the breeding sessions by "
+                            "themselves, and delete those that are not needed", kMostProjectFileBytes, text.size()));
+  }
+  return text;
 }
 
 WholeProject parse_project_file(std::string_view text) {

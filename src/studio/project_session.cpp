@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "base/error.h"
+#include "studio/quietly.h"
 #include "studio/scene_json.h"
 
 namespace espalier::studio {
@@ -87,6 +88,12 @@ void ProjectSession::renamed() {
 void ProjectSession::leave(const WebSocketPtr& socket) {
   const std::lock_guard lock(mutex_);
   std::erase(sockets_, socket);
+  // It may not have come in yet: its joining waits, or is being done.
+  tasks_.push_back([this, socket] {
+    const std::lock_guard alone(mutex_);
+    std::erase(sockets_, socket);
+  });
+  changed_.notify_all();
   if (room_) room_->leave(socket);
   if (sockets_.empty() && live_ && !end_) live_->stop();
 }
@@ -202,7 +209,7 @@ void ProjectSession::run() {
         save_shown();
       }
     } catch (const std::exception& error) {
-      noted(api::LogLevel::error, error.what());
+      quietly([&] { noted(api::LogLevel::error, error.what()); });
     }
   }
 }

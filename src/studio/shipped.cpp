@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kGrammars = "grammars/", kScenes = "scenes/";
+// Samples are scenes, else grammars; some of these have settings of their own.
+constexpr std::string_view kGrammars = "grammars/", kScenes = "scenes/", kSettings = "scenes/samples/";
 const std::string kPictures = "scenes/pictures/";
 std::string stem_of(std::string_view path) { return fs::path(path).stem().string(); }
 
@@ -71,8 +72,11 @@ NewProject make_sample(const std::string& name) {
     if (!bytes) throw Error(fmt::format("the sample {} lacks {}", name, path));
     return std::string(*bytes);
   };
-  const std::string scene = fmt::format("{}{}.toml", kScenes, name), grammar = fmt::format("{}{}.esp", kGrammars, name);
-  if (find_shipped(scene)) return project_of_scene(scene, read);
+  const std::string grammar = fmt::format("{}{}.esp", kGrammars, name);
+  for (const std::string_view folder : {kScenes, kSettings}) {
+    const std::string scene = fmt::format("{}{}.toml", folder, name);
+    if (find_shipped(scene)) return project_of_scene(scene, read);
+  }
   if (find_shipped(grammar)) return project_of_grammar(grammar, read);
   throw Error(fmt::format("there is no sample {}", name.substr(0, 80)));
 }

@@ -120,7 +120,8 @@ class Store {
   std::string favourite_picture(std::int64_t project, std::int64_t favourite);
   void remove_favourite(std::int64_t project, std::int64_t favourite);
 
-  /// For tables of others (breeding_store.h): nobody else has the database meanwhile.
+  /// For tables of others (breeding_store.h), and for much that belongs together: nobody else has the database meanwhile.
+  /// All of this class may be called within.
   void alone(const std::function<void(Database&)>& work);
 
   /// What belongs to no project, by its name.
@@ -148,7 +149,7 @@ class Store {
   std::optional<StoredMove> move(std::int64_t project, bool back, const std::optional<std::string>& shown);
   std::string free_name(const std::string& name);
 
-  std::mutex mutex_;
+  std::recursive_mutex mutex_;  // reading or writing much at once is made of reading and writing little
   int lock_file_ = -1;
   std::optional<Database> database_;
 };

@@ -79,6 +79,8 @@ void Studio::opened(const WebSocketPtr& socket) {
   send_projects(&socket);
 }
 
+void Studio::ending() { give_up_at_ = ticks(std::chrono::steady_clock::now()); }
+
 void Studio::closed(const WebSocketPtr& socket) {
   SessionPtr session;
   {
@@ -255,7 +257,9 @@ HttpResponse Studio::answer_project(std::int64_t project, const HttpRequest& req
   }
   if (rest.starts_with(kBreeding)) {
     const Turn turn(busy_);
-    const BreedingAnswer answer = answer_breeding(store_, project, request, rest.substr(kBreeding.size()));
+    PatientExecutor executor(give_up_at_, Cores::all);
+    const BreedingAnswer answer =
+        answer_breeding(store_, project, request, rest.substr(kBreeding.size()), executor);
     if (answer.changed) session(project)->breedings_changed();
     return answer.response;
   }
@@ -286,10 +290,14 @@ HttpResponse Studio::preview(std::int64_t project, const std::string& path) {
 HttpResponse Studio::export_project(std::int64_t project, const std::string& format) {
   const StoredProjectState now = store_.open(project);
   if (format == "espalier") {
-    WholeProject whole{now.project.name, {now.state, {}}, store_.shown(project), store_.favourites(project), {}};
-    BreedingStore breedings(store_);
-    for (const BreedingSummary& one : breedings.list(project)) whole.breedings.push_back(breedings.whole(project, one.id));
-    for (const StoredFile& file : now.state.files) whole.content.blobs[file.hash] = store_.blob(project, file.hash);
+    WholeProject whole;
+    store_.alone([&](Database&) {  // at one go: people work on meanwhile
+      const StoredProjectState state = store_.open(project);
+      whole = {state.project.name, {state.state, {}}, store_.shown(project), store_.favourites(project), {}};
+      BreedingStore breedings(store_);
+      for (const BreedingSummary& one : breedings.list(project)) whole.breedings.push_back(breedings.whole(project, one.id));
+      for (const StoredFile& file : state.state.files) whole.content.blobs[file.hash] = store_.blob(project, file.hash);
+    });
     return {200, "application/json", project_file(whole), fmt::format("project-{}.espalier", project)};
   }
   const ShownModelPtr shown = session(project)->shown();
@@ -319,11 +327,16 @@ std::int64_t Studio::add(const std::string& name, const NewProject& content) {
 
 std::int64_t Studio::import(std::string_view text) {
   const WholeProject project = is_zip(text) ? project_of_zip(text) : parse_project_file(text);
-  const std::int64_t id = store_.create(project.name, project.content.state, project.content.blobs);
-  store_.set_shown(id, project.shown);
-  for (const StoredFavourite& favourite : project.favourites) store_.add_favourite(id, favourite);
-  // The one that was changed last comes last.
-  for (auto it = project.breedings.rbegin(); it != project.breedings.rend(); ++it) BreedingStore(store_).insert(id, *it);
+  std::int64_t id = 0;
+  store_.alone([&](Database& database) {  // all of it or nothing
+    Transaction transaction(database);
+    id = store_.create(project.name, project.content.state, project.content.blobs);
+    store_.set_shown(id, project.shown);
+    for (const StoredFavourite& favourite : project.favourites) store_.add_favourite(id, favourite);
+    // The one that was changed last comes last.
+    for (auto it = project.breedings.rbegin(); it != project.breedings.rend(); ++it) BreedingStore(store_).insert(id, *it);
+    transaction.commit();
+  });
   return id;
 }
 

@@ -29,6 +29,7 @@ class Studio final : public WebApp {
   void received(const WebSocketPtr& socket, std::string text) override;
   void closed(const WebSocketPtr& socket) override;
   HttpResponse answer(const HttpRequest& request) override;
+  void ending() override;
 
   /// What pages must know to be served. The same for the same file of projects, so that pages find their way back after
   /// the server was started again, unless a `fresh` one is asked for. Throws Error.
@@ -59,6 +60,7 @@ class Studio final : public WebApp {
   Store store_;
   MeshPreviews previews_;
   std::atomic<int> busy_{0};  // exports and imports that run
+  std::atomic<std::int64_t> give_up_at_{0};  // see PatientExecutor
   std::mutex mutex_;          // guards what follows
   std::map<std::uint64_t, WebSocketPtr> sockets_;
   std::map<std::uint64_t, SessionPtr> where_;  // session by socket

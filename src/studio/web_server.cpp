@@ -103,6 +103,7 @@ class WebServer::Implementation {
   }
 
   ~Implementation() {
+    app_.ending();
     say_goodbye();
     // The library looks only every two seconds whether it shall end, unless somebody knocks.
     std::atomic<bool> stopped{false};
@@ -220,8 +221,12 @@ class WebServer::Implementation {
       links_[connection] = std::move(link);
     }
     mg_set_user_connection_data(connection, known);
-    known->writer = std::thread([connection, socket = known->socket] { write_all(connection, *socket); });
-    app_.opened(known->socket);
+    try {
+      known->writer = std::thread([connection, socket = known->socket] { write_all(connection, *socket); });
+      app_.opened(known->socket);
+    } catch (const std::exception&) {  // no thread, no memory, no disk: the page connects again
+      known->socket->out.close();
+    }
   }
 
   static void write_all(mg_connection* connection, WebSocket& socket) {

@@ -40,6 +40,8 @@ class WebApp {
   virtual void closed(const WebSocketPtr& socket) = 0;
   /// Of a request that carried the token.
   virtual HttpResponse answer(const HttpRequest& request) = 0;
+  /// The server ends: answers that are being made are not waited for for long.
+  virtual void ending() {}
 };
 
 struct WebServerSettings {

@@ -123,6 +123,54 @@ TEST(Generation, WithoutRatingsEverybodyHasChildrenAlike) {
   EXPECT_GE(seen.size(), 19u) << "each is selected once; a child that was not viable may have been replaced by its parent";
 }
 
+TEST(Generation, AClassicChildThatIsAParentToTheBitIsACopyOfIt) {
+  BreedFixture on("gentree.esp");
+  BreedSettings settings = classic();
+  settings.genesis.crossover = 1;
+  settings.genesis.mutation = 0;
+  std::vector<Member> parents = first_screen(on, settings);
+  parents.resize(2);
+  parents[1].derivation = parents[0].derivation;
+  parents[1].derivation.draws[4] ^= 0x80000000;  // all that they differ in
+  rate(parents[0], 1), rate(parents[1], 2);
+  int crossed = 0;
+  for (std::uint32_t number = 1; number < 20; ++number) {
+    for (const Member& member : next_generation(on.problem, settings, parents, number, 100).members) {
+      const Member& of = parents[member.derivation == parents[0].derivation ? 0 : 1];
+      if (member.derivation != of.derivation) {
+        ++crossed;  // the points lie within the gene
+        continue;
+      }
+      EXPECT_EQ(member.origin, Origin::kept);
+      EXPECT_EQ(member.parents, std::vector<MemberId>{of.id});
+      EXPECT_EQ(member.rating, of.rating);
+    }
+  }
+  EXPECT_LT(crossed, 100);
+}
+
+TEST(Generation, TheScalingWindowRemembersTheGenerationsBefore) {
+  BreedFixture on("gentree.esp");
+  BreedSettings settings = classic();
+  settings.genesis.crossover = settings.genesis.mutation = 0;
+  settings.genesis.elitism = false;
+  std::vector<Member> parents = first_screen(on, settings);
+  for (std::size_t i = 0; i < parents.size(); ++i) rate(parents[i], i < 10 ? 1 : 2);
+  const auto of_the_worse = [&](std::uint32_t window, const std::vector<double>& before) {
+    settings.genesis.window = window;
+    std::size_t count = 0;
+    for (const Member& member : next_generation(on.problem, settings, parents, 1, 100, before).members) {
+      count += member.rating == 1;
+    }
+    return count;
+  };
+  EXPECT_EQ(of_the_worse(5, {}), 0u) << "they are the worst, and that is 0";
+  EXPECT_EQ(of_the_worse(0, {-100}), 0u);
+  EXPECT_EQ(of_the_worse(1, {1, -100}), 0u) << "beyond the window";
+  EXPECT_NEAR(static_cast<double>(of_the_worse(2, {1, -100})), 10, 1) << "both are far above it";
+  EXPECT_NEAR(static_cast<double>(of_the_worse(1, {0})), 20.0 / 3, 1);
+}
+
 TEST(Generation, ClassicWantsAGenomeOfStartDraws) {
   BreedFixture on("spaceship.esp");
   const std::vector<Member> parents = first_screen(on);

@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "base/error.h"
 #include "base/math.h"
 #include "model/primitives.h"
 #include "model/shipped.h"
@@ -59,6 +60,29 @@ TEST(LevelOfDetail, TrianglesFallToTheirShares) {
         }
       }
     }
+  }
+}
+
+TEST(LevelOfDetail, CopiesOfALargeFileAreBounded) {
+  class LargeFile : public MeshSource {
+   public:
+    Mesh load(const std::string&) override {
+      Mesh mesh;
+      mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+      mesh.triangles.assign(100'000, {0, 1, 2});
+      return mesh;
+    }
+  } files;
+  GeneratorGraph graph;
+  graph.meshes.emplace_back().kind = MeshKind::file;
+  const MeshTable meshes(graph, "", files);
+  Model model;
+  model.instances.resize(201);
+  try {
+    parts_at(model, meshes, {}, {0, Joints::separate});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "level of detail 0 must have at most 20000000 triangles, got 20100000");
   }
 }
 

@@ -36,6 +36,21 @@ Instance span(const Vec3& from, const Vec3& to, float radius, float tip, std::ui
   return out;
 }
 
+TEST(Limbs, OfAnySizeAreFoundAtOnce) {
+  Model model;
+  // Trumpets of a thousand radii, things as large as a planet's orbit, and a twig in between.
+  for (int i = 0; i < 300; ++i) {
+    const float x = static_cast<float>(i);
+    model.instances.push_back(span({x, 0, 0}, {x, 1, 0}, 0.5f, 500));
+    model.instances.push_back(span({x, 0, 1e15f}, {x + 1e15f, 1e15f, 0}, 1e15f, 1e15f));
+  }
+  model.instances.push_back(span({0.5f, 0, 7}, {0.5f, 1, 7}, 0.01f, 0.01f));
+  model.instances.push_back(span({0.5f, 1, 7}, {0.5f, 2, 7}, 0.01f, 0.01f));
+  const Limbs limbs = find_limbs(model, table(), true);
+  EXPECT_EQ(limbs.limb_of[600], limbs.limb_of[601]);
+  EXPECT_NE(limbs.limb_of[600], Limbs::kNone);
+}
+
 TEST(Limbs, AreChainsOfWhatTouches) {
   Model model;
   model.instances = {span({0, 0, 0}, {0, 1, 0}, 0.2f, 0.15f), span({0, 1, 0}, {0.2f, 2, 0}, 0.15f, 0.1f),

@@ -142,6 +142,44 @@ TEST_F(BreedingTest, ATasteModelChoosesAndSaysWhy) {
             "4 generations with 48 individuals came out the same\n");
 }
 
+TEST_F(BreedingTest, AFileOfManyStatesIsKeptOnce) {
+  const auto owned = project("city-filling");
+  BreedingPage& page = *owned;
+  ASSERT_EQ(begin(page, {{"population", 9}}), "");
+  for (const double weight : {0.5, 0.6}) {
+    json scene = page.seen["document"]["scene"];
+    scene["volume"]["mesh"][0]["fill"] = weight;
+    ASSERT_EQ(page.ask("edit", {{"label", "Set weight"}, {"scene", scene}}), "");
+    ASSERT_EQ(page.ask("breed"), "");
+    EXPECT_FALSE(page.breeding().contains("problem")) << page.breeding()["problem"];
+  }
+  const std::string path =
+      "/projects/" + std::to_string(page.seen["document"]["project"]["id"].get<int>()) + "/breeding/";
+  const json file = json::parse(http("GET " + path + "1/export").body);
+  EXPECT_EQ(file["states"].size(), 3u);
+  std::set<std::string> hashes;
+  for (const json& state : file["states"]) {
+    EXPECT_FALSE(state["files"].empty());
+    for (const json& one : state["files"]) hashes.insert(one["hash"].get<std::string>());
+  }
+  EXPECT_EQ(file["files"].size(), hashes.size());
+  EXPECT_EQ(file["files"].size(), file["states"][0]["files"].size());
+  EXPECT_EQ(http("POST " + path + "import", file.dump()).status, 200);
+}
+
+TEST_F(BreedingTest, AProjectIsImportedWhollyOrNotAtAll) {
+  const auto owned = project("gentree-natural");
+  ASSERT_EQ(begin(*owned, {{"population", 9}}), "");
+  const std::string id = std::to_string(owned->seen["document"]["project"]["id"].get<int>());
+  json file = json::parse(http("GET /projects/" + id + "/export/espalier").body);
+  file["breedings"][0]["individuals"].back()["id"] = 10'001;
+  const Answer answer = http("POST /projects/import", file.dump());
+  EXPECT_EQ(answer.status, 400);
+  EXPECT_THAT(answer.body, HasSubstr("individuals"));
+  EXPECT_EQ(owned->ask("list_projects"), "");
+  EXPECT_EQ(owned->seen["projects"]["projects"].size(), 1u);
+}
+
 TEST_F(BreedingTest, ADamagedFileIsRefused) {
   const auto owned = project("gentree-natural");
   ASSERT_EQ(begin(*owned, {{"population", 9}}), "");
@@ -166,7 +204,21 @@ TEST_F(BreedingTest, ADamagedFileIsRefused) {
   EXPECT_THAT(refused("/derivations", {{"00", "{}"}}), HasSubstr("derivation"));
   EXPECT_THAT(refused("/settings", R"({"kind":"set_breeding","settings":{"population":1e9}})"),
               HasSubstr("population"));
-  EXPECT_THAT(refused("/states/0/files", {{{"path", "../x.obj"}, {"bytes", ""}}}), HasSubstr("elsewhere"));
+  EXPECT_THAT(refused("/states/0/files", {{{"path", "../x.obj"}, {"hash", ""}}}), HasSubstr("elsewhere"));
+  EXPECT_THAT(refused("/states/0/files", {{{"path", "x.obj"}, {"hash", "00"}}}), HasSubstr("x.obj"));
+  EXPECT_THAT(refused("/files", {{"00", "AAAA"}}), HasSubstr("file 00"));
+  EXPECT_THAT(refused("/individuals/3/rating", 1e6), HasSubstr("rating"));
+  EXPECT_THAT(refused("/comparisons", {{{"better", 77}, {"worse", 1}}}), HasSubstr("comparison 1"));
+  const auto refused_recipe = [&](const char* key, const json& value) {
+    json recipe = json::parse(good["generations"][0]["recipe"].get<std::string>());
+    recipe[key] = value;
+    return refused("/generations/0/recipe", recipe.dump());
+  };
+  EXPECT_THAT(refused_recipe("number", 2), HasSubstr("is of generation 2"));
+  EXPECT_THAT(refused_recipe("number", 1 << 16), HasSubstr("number"));
+  EXPECT_THAT(refused_recipe("first_id", 0), HasSubstr("first individual"));
+  EXPECT_THAT(refused_recipe("kind", "bred"), HasSubstr("no parents"));
+  EXPECT_THAT(refused_recipe("opinions", json::array({json::array({good["individuals"][0]["derivation"], 1e9})})), HasSubstr("rating"));
   EXPECT_EQ(http("POST " + path + "import", "{").status, 400);
   EXPECT_EQ(http("POST " + path + "import", "[]").status, 400);
   EXPECT_EQ(http("GET " + path + "99/export").status, 400);

@@ -3,7 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include "base/executor.h"
+#include "search/genesis_encoding.h"
+#include "studio/breeding_bench.h"
 #include "studio/breeding_fixture.h"
+#include "studio/shipped.h"
 
 namespace espalier::studio {
 namespace {
@@ -185,6 +189,18 @@ TEST_F(BreedingTest, GenTreeIsBredAsItWas) {
   EXPECT_THAT(begin(*other, {{"method", "classic"}}), HasSubstr("draws of the start rule"));
 }
 
+TEST(BreedingSample, GenTreeHasItsBits) {
+  const auto bits_of = [](const char* sample) {
+    const NewProject project = make_sample(sample);
+    const auto executor = make_serial_executor();
+    BreedingBench bench([&](const std::string& hash) { return project.blobs.at(hash); }, *executor);
+    bench.take(project.state);
+    return GenesisEncoding(bench.graph(), bench.genesis_bits(), true).length();
+  };
+  EXPECT_EQ(bits_of("gentree"), 82u);
+  EXPECT_GT(bits_of("gentree-natural"), 82u);
+}
+
 TEST_F(BreedingTest, ManyTabsSeeTheSameSession) {
   const auto one = project("gentree-natural");
   const auto two = this->page();
@@ -239,6 +255,15 @@ TEST_F(BreedingTest, AFavouriteIsKeptAndShownAndBredFrom) {
   const std::string model = page.models[id];
   ASSERT_EQ(begin(page, json::object(), "favourites"), "");
   EXPECT_EQ(page.models[page.ids()[0]].substr(56), model.substr(56)) << "a founder comes first, as it is";
+  std::size_t relatives = 0;
+  for (const json& one : page.breeding()["individuals"]) {
+    if (one["origin"] != "sibling") continue;
+    ++relatives;
+    EXPECT_EQ(one["parents"], json::array({page.ids()[0]}));
+  }
+  EXPECT_EQ(relatives, 7u) << "two thirds of the other 11 places";
+  const std::string project = std::to_string(page.seen["document"]["project"]["id"].get<int>());
+  EXPECT_EQ(http("GET /projects/" + project + "/breeding/2/replay").body, "1 generation with 12 individuals came out the same\n");
   ASSERT_EQ(begin(page, json::object(), "shown"), "");
   EXPECT_EQ(page.models[page.ids()[0]].substr(56), model.substr(56));
 }

@@ -510,6 +510,38 @@ TEST_F(StudioTest, FavouritesHavePictures) {
   EXPECT_THAT(page.ask("restore_favourite", {{"favourite", dropped["id"]}}), HasSubstr("no such favourite"));
 }
 
+TEST_F(StudioTest, PagesThatLeaveBeforeTheyCameInAreGone) {
+  constexpr int kProjects = 14;  // more than may be open
+  std::vector<int> projects;
+  {
+    ModelPage page = this->page();
+    for (int i = 0; i < kProjects; ++i) {
+      ASSERT_EQ(page.ask("create_project", {{"name", std::to_string(i)}, {"sample", "spaceship"}}), "");
+      projects.push_back(page.seen["document"]["project"]["id"].get<int>());
+      page.ask("stop_search");
+    }
+  }
+  for (const int project : projects) {
+    ModelPage busy = this->page();
+    ASSERT_EQ(busy.ask("open_project", {{"project", project}}), "");
+    // The session's thread has enough to do, and who comes in has to wait.
+    for (int i = 0; i < 40; ++i) busy.send("edit", {{"label", "Set"}, {"scene", {{"seed", i}}}, {"search", false}});
+    ModelPage hasty = this->page();
+    hasty.send("open_project", {{"project", project}});
+  }
+  ModelPage page = this->page();
+  for (const int project : projects) {
+    // The last pages may be leaving still.
+    std::string answer;
+    for (int tries = 0; tries < 100; ++tries) {
+      answer = page.ask("open_project", {{"project", project}});
+      if (answer.empty()) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    ASSERT_EQ(answer, "") << project;
+  }
+}
+
 TEST_F(StudioTest, ProjectsGoOutAndInAsOneFile) {
   ModelPage page = this->page();
   page.ask("create_project", {{"name", "a"}, {"sample", "spaceship"}});

@@ -2,6 +2,7 @@
 import { batch } from "@preact/signals";
 import type { Bred, Breeding, Breedings, IndividualGenes, Lineage, Message } from "../api";
 import { decodeIndividual, isRoomTable, kPreview, type IndividualMessage } from "./individual_message";
+import { nextPair } from "./rating";
 import { forgetSession, type IndividualModel, type RoomState } from "./room_state";
 
 export type RoomMessage = Breedings | Breeding | Bred | IndividualGenes | Lineage;
@@ -66,7 +67,7 @@ function applyBreeding(state: RoomState, message: Breeding): void {
   if (moved) {
     const close = state.close.value;
     if (close.kind === "ancestor" || close.kind === "blend") state.close.value = { kind: "none" };
-    if (close.kind === "pairs") state.close.value = { kind: "pairs", pair: null };
+    if (close.kind === "pairs") state.close.value = { kind: "pairs", pair: nextPair(message.individuals, state.asked.value) };
     dropModels(state, here);
   }
   if (state.selected.value === null || !here.has(state.selected.value)) {

@@ -32,6 +32,13 @@ export function ModelStage() {
     measure();
     return () => observer.disconnect();
   }, []);
+  const generation = room.state.breeding.value?.generation;
+  useEffect(() => {
+    // Who had the focus on a model of the generation before has it on one of this, not nowhere.
+    const lost = document.activeElement === null || document.activeElement === document.body;
+    const id = room.state.selected.peek();
+    if (lost && id !== null) element.current?.querySelector<HTMLElement>(`[data-individual="${id}"]`)?.focus({ preventScroll: true });
+  }, [generation]);
   const close = room.state.close.value;
   const individuals = room.individuals.value;
   const large = largeOnes(close, room.state.selected.value, room.state.blend.value.parents.length);

@@ -4,11 +4,14 @@ export class NewestOnly<T> {
   private next: T | null = null;
   private busy = false;
 
-  /** `join` makes one of two that wait; `send` says whether it worked: if not, what waits is dropped. */
-  constructor(private readonly send: (what: T) => Promise<boolean>, private readonly join: (before: T, after: T) => T = (_, after) => after) {}
+  /** `join` makes one of two that wait; null: they are two, and the first goes at once. `send` says whether it worked: if not, what
+   *  waits is dropped. */
+  constructor(private readonly send: (what: T) => Promise<boolean>, private readonly join: (before: T, after: T) => T | null = (_, after) => after) {}
 
   push(what: T): void {
-    this.next = this.next === null ? what : this.join(this.next, what);
+    const joined = this.next === null ? null : this.join(this.next, what);
+    if (joined === null) this.flush();
+    this.next = joined ?? what;
     if (!this.busy) void this.run();
   }
 

@@ -43,10 +43,11 @@ export class Room {
   /** Ratings on their way: the second of two quick clicks counts from the first. */
   private readonly said = new Map<number, number | undefined>();
   private unanswered = 0;
+  private picking = false;
 
   private readonly geneEdits = new NewestOnly<GeneEdit>(
     (edit) => this.ask({ kind: "set_genes", ...edit }),
-    (before, after) => before.individual !== after.individual || before.gesture !== after.gesture ? after : {
+    (before, after) => before.individual !== after.individual || before.gesture !== after.gesture ? null : {
       ...after, draws: [...before.draws.filter((one) => !after.draws.some((other) => other.gene === one.gene && other.index === one.index)), ...after.draws],
     },
   );
@@ -69,10 +70,10 @@ export class Room {
     if (message.kind === "breeding") {
       this.wanted.value = message.session.id;
       this.inside = true;
-    } else if (message.kind === "breedings" && this.wanted.value !== null && !this.inside) {
-      // The connection was lost meanwhile, or the session was deleted by another page.
-      if (message.sessions.some((one) => one.id === this.wanted.value)) void this.open(this.wanted.value);
-      else this.forget();
+    } else if (message.kind === "breedings" && this.wanted.value !== null) {
+      // Another page has deleted it, or the connection was lost meanwhile.
+      if (!message.sessions.some((one) => one.id === this.wanted.value)) this.forget();
+      else if (!this.inside && this.here.value) void this.open(this.wanted.value);
     }
   }
 
@@ -94,6 +95,10 @@ export class Room {
   }
 
   private ask(ask: Ask): Promise<boolean> {
+    if (this.studio.state.status.value.kind !== "open") {
+      this.studio.tell("There is no connection to the server: nothing was changed.", true);
+      return Promise.resolve(false);
+    }
     return this.studio.ask(ask);
   }
 
@@ -116,9 +121,16 @@ export class Room {
 
   // --- Sessions -----------------------------------------------------------------------------------------------------------
 
-  /** To the room, or back to the model. */
+  /** To the room, or back to the model. The server makes models only for pages that are in the room. */
   go(here: boolean): void {
     this.here.value = here;
+    if (this.wanted.value === null || this.studio.state.status.value.kind !== "open") return;
+    if (here && !this.inside) void this.open(this.wanted.value);
+    if (here || !this.inside) return;
+    this.geneEdits.flush();
+    this.settingEdits.flush();
+    this.inside = false;
+    void this.ask({ kind: "leave_breeding" });
   }
 
   async start(what: Omit<StartBreeding, "kind" | "request">): Promise<void> {
@@ -232,9 +244,20 @@ export class Room {
 
   /** Of the two that are compared; null: neither. */
   async pick(which: 0 | 1 | null): Promise<void> {
-    const { close, asked } = this.state;
+    const { close } = this.state;
     if (close.value.kind !== "pairs" || close.value.pair === null) return;
     const [a, b] = close.value.pair;
+    if (this.picking) return;
+    this.picking = true;
+    try {
+      await this.pickOf(a, b, which);
+    } finally {
+      this.picking = false;
+    }
+  }
+
+  private async pickOf(a: number, b: number, which: 0 | 1 | null): Promise<void> {
+    const { asked } = this.state;
     if (which !== null) {
       if (!this.mayRate.value) return this.studio.tell("This session is bred without ratings. Its settings can change that.");
       if (!(await this.ask({ kind: "compare", better: which === 0 ? a : b, worse: which === 0 ? b : a }))) return;

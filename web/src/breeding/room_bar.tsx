@@ -33,6 +33,7 @@ export function RoomBar() {
       </button>
       <h2>Generation {breeding.generation}</h2>
       <span class="dim">{breeding.individuals.length} models</span>
+      <span class="unseen" role="status">{`Generation ${breeding.generation}, ${breeding.individuals.length} models`}</span>
       <span class="cell-space" />
       {room.mayRate.value && (
         <Choice label="Rate by" value={close === "pairs" ? "pairs" : rateBy === "pairs" ? "points" : rateBy} choices={kRateBy.map((by) => ({ value: by, ...kNames[by] }))} onChange={choose} />

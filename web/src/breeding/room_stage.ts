@@ -20,6 +20,8 @@ export interface StagePlace {
 const kTurn = 2 * Math.PI / 20;
 /** Milliseconds from frame to frame; where they are more, fewer models are drawn the next time. */
 const kSlow = 40;
+/** Models that are kept though nobody shows them: a generation and what is looked at. */
+const kSpare = 22;
 /** Models in a frame; at first, where the processor draws. */
 const kMost = 64, kMostSlow = 3;
 /** Between the models: the background of the page. */
@@ -32,6 +34,8 @@ export class RoomStage {
   private readonly renderer: WebGLRenderer;
   private readonly camera = new PerspectiveCamera(kFov * 180 / Math.PI, 1, 0.01, 1000);
   private readonly models = new Map<number, { drawn: StandingModel; message: ArrayBuffer }>();
+  /** For the models to come: shaders are compiled, and buffers large enough. */
+  private readonly spare: StandingModel[] = [];
   private table: { message: ArrayBuffer; decoded: MeshTable } | null = null;
   private places: readonly StagePlace[] = [];
   /** Which places are to be drawn. */
@@ -91,7 +95,8 @@ export class RoomStage {
   setModels(models: ReadonlyMap<number, { model: ArrayBuffer }>): void {
     for (const [id, { drawn }] of this.models) {
       if (models.has(id)) continue;
-      drawn.dispose();
+      if (this.spare.length < kSpare) this.spare.push(drawn);
+      else drawn.dispose();
       this.models.delete(id);
       this.staleOf(id);
     }
@@ -102,7 +107,8 @@ export class RoomStage {
       if (before?.message === model) continue;
       this.guard(() => {
         if (before === undefined) {
-          const drawn = new StandingModel(model, table);
+          const drawn = this.spare.pop() ?? new StandingModel();
+          drawn.set(model, table);
           drawn.setPalette(this.dark ? kDark : kCellLight, this.dark);
           this.models.set(id, { drawn, message: model });
         } else {
@@ -118,6 +124,7 @@ export class RoomStage {
 
   setPlaces(places: readonly StagePlace[]): void {
     this.places = places;
+    this.stale.clear(); // there may be fewer
     this.redraw();
   }
 
@@ -162,7 +169,7 @@ export class RoomStage {
   dispose(): void {
     cancelAnimationFrame(this.frame);
     document.removeEventListener("visibilitychange", this.onVisible);
-    for (const { drawn } of this.models.values()) drawn.dispose();
+    for (const drawn of [...this.spare, ...[...this.models.values()].map((one) => one.drawn)]) drawn.dispose();
     this.models.clear();
     this.renderer.dispose();
     this.renderer.forceContextLoss();

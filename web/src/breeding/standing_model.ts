@@ -21,13 +21,12 @@ export class StandingModel {
   private table: MeshTable | null = null;
   private readonly key = kKey.clone();
 
-  /** Throws MessageError. */
-  constructor(message: ArrayBuffer, table: MeshTable) {
+  /** Of nothing, until it is set. */
+  constructor() {
     this.scene.matrixAutoUpdate = this.scene.matrixWorldAutoUpdate = false;
     this.scene.add(this.disc.mesh, this.parts.group);
     this.parts.uniform("uKey", this.key);
     this.span = spanOf({ min: [1, 1, 1], max: [0, 0, 0] });
-    this.set(message, table);
   }
 
   /** Throws MessageError, and stays what it was. */

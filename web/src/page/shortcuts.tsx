@@ -148,6 +148,8 @@ export function listenForShortcuts(studio: Studio): () => void {
       const action = roomKeyFor(event, whereOf(target, takesText(target)), studio.room.state.close.value.kind === "pairs");
       if (action !== null) {
         event.preventDefault();
+        // A key that is held steps on and on; it does not breed, choose or rate again and again.
+        if (event.repeat && !["step", "undo", "redo", "point"].includes(action.do)) return;
         return runRoomAction(studio, action);
       }
     }

@@ -57,8 +57,8 @@ function follow(studio: Studio, view: StudioView): (() => void)[] {
       if (state.meshes.value !== null) view.setMeshes(state.meshes.value);
     }),
     effect(() => {
-      if (state.model.value === null) return;
       view.setModel(state.model.value);
+      if (state.model.value === null) return;
       // Another project is seen from afar first.
       if (framed !== project.peek()) view.frame();
       framed = project.peek();

@@ -25,7 +25,6 @@ export interface Preferences {
   rateBy: RateBy;
   oneScale: boolean;
   turning: boolean;
-  roomRight: number;
 }
 
 export const PREFERENCE_DEFAULTS: Preferences = {
@@ -44,7 +43,6 @@ export const PREFERENCE_DEFAULTS: Preferences = {
   rateBy: "points",
   oneScale: false,
   turning: true,
-  roomRight: 330,
 };
 
 const kKey = "espalier-studio";

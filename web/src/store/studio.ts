@@ -239,10 +239,11 @@ export class Studio implements ViewHost {
 
   // --- What the view asks for -------------------------------------------------------------------------------------------
 
-  edit(change: { label: string; gesture?: string; scene: Scene; search: boolean }): void {
-    if (this.state.confirmed.value === null) return;
+  edit(change: { label: string; gesture?: string; scene: Scene; search: boolean }): Scene {
+    if (this.state.confirmed.value === null) return change.scene;
     const scene = withGuidedEngine(this.scene.value, change.scene);
     this.edits.push({ ...change, scene, search: change.search && this.live() });
+    return scene;
   }
 
   select(selection: TargetSelection | null): void {

@@ -118,7 +118,12 @@ export class View implements StudioView, Desk {
     this.notices.guard(() => this.model.setMeshes(message));
   }
 
-  setModel(message: ArrayBuffer): void {
+  setModel(message: ArrayBuffer | null): void {
+    if (message === null) {
+      this.model.clear();
+      this.arrived = null;
+      return this.redraw();
+    }
     const at = performance.now();
     this.notices.guard(() => {
       const number = this.model.setModel(message);
@@ -162,7 +167,7 @@ export class View implements StudioView, Desk {
   setTool(tool: Tool): void {
     if (tool === this.tool) return;
     this.input.cancel();
-    this.tools.cancel();
+    this.tools.finish(tool);
     if (this.tool === "paint") this.paint.finish(true, this.camera());
     this.tool = tool;
     if (tool === "paint") {

@@ -22,9 +22,19 @@ export function same(a: unknown, b: unknown): boolean {
   return keys.length === Object.keys(two).length && keys.every((key) => key in two && same(one[key], two[key]));
 }
 
+interface Gesture {
+  id: string;
+  label: string;
+  before: Scene;
+  /** What is shown and was not sent, as a change of `before`. */
+  preview: ((scene: Scene) => Scene) | null;
+  dirty: boolean;
+  sent: boolean;
+}
+
 export class Draft {
   scene: Scene = {};
-  private gesture: { id: string; label: string; before: Scene; dirty: boolean; sent: boolean } | null = null;
+  private gesture: Gesture | null = null;
   private held: Scene | null = null;
   /** What went out last, until it came back. */
   private awaited: Scene | null = null;
@@ -41,13 +51,8 @@ export class Draft {
   /** The document's scene, whenever it changed. */
   receive(scene: Scene): void {
     if (this.awaited && same(scene, this.awaited)) this.settle();
-    if (this.gesture || this.awaited !== null) {
-      this.held = scene;
-      return;
-    }
-    this.held = null;
-    this.scene = scene;
-    this.changed();
+    this.held = scene;
+    this.release();
   }
 
   newGesture(): string {
@@ -56,13 +61,14 @@ export class Draft {
 
   begin(label: string, id = this.newGesture()): void {
     this.end();
-    this.gesture = { id, label, before: this.scene, dirty: false, sent: false };
+    this.gesture = { id, label, before: this.scene, preview: null, dirty: false, sent: false };
   }
 
-  /** Shown, not sent. */
-  preview(scene: Scene): void {
+  /** Shown, not sent: laid over the document, and over whatever it becomes until the change is sent. */
+  preview(change: (scene: Scene) => Scene): void {
     if (!this.gesture) return;
-    this.scene = scene;
+    this.gesture.preview = change;
+    this.scene = change(this.gesture.before);
     this.changed();
   }
 
@@ -70,6 +76,7 @@ export class Draft {
   change(scene: Scene): void {
     const { gesture } = this;
     if (!gesture) return;
+    gesture.preview = null;
     this.scene = scene;
     this.changed();
     if (gesture.dirty) return;
@@ -116,7 +123,11 @@ export class Draft {
     this.held = null;
     this.giveUp?.();
     this.giveUp = this.clock.later(() => this.settle(), kPatience);
-    this.host.edit(gesture === undefined ? { label, scene, search: true } : { label, gesture, scene, search: true });
+    const taken = this.host.edit({ label, ...(gesture === undefined ? {} : { gesture }), scene, search: true });
+    if (taken === scene || this.awaited !== scene) return;
+    // The page has added something to it, which the next change must not take away.
+    this.scene = this.awaited = taken;
+    if (this.held && same(this.held, taken)) this.settle();
   }
 
   /** No answer is awaited any more. */
@@ -128,10 +139,11 @@ export class Draft {
   }
 
   private release(): void {
-    if (this.gesture || this.awaited !== null || !this.held) return;
-    const scene = this.held;
+    const { gesture, held } = this;
+    if (!held || this.awaited !== null || (gesture && !gesture.preview)) return;
     this.held = null;
-    this.scene = scene;
+    if (gesture) gesture.before = held;
+    this.scene = gesture?.preview?.(held) ?? held;
     this.changed();
   }
 }

@@ -5,7 +5,8 @@ import { snapTo } from "./curve_picking";
 import { fitCubic } from "./fit_curve";
 import { dragGizmo, type GizmoHandle } from "./gizmo";
 import { atDepth, depthOf, eyeOf, panned, pixelSize, turned, zoomed } from "./orbit";
-import { placingOf } from "./placing";
+import type { Tool } from "./host";
+import { placingOf, type Placing } from "./placing";
 import { addCurve, addMesh, curvesOf, kMostCurves, meshesOf, movedCurve, movedPoint, setPlacing,
   setPoints } from "./scene_edits";
 import { boardFor, onBoard, shapeBetween, withHeight } from "./shape_drag";
@@ -139,35 +140,35 @@ export function strokeDrag(desk: Desk, from: Pointer, click: (p: Pointer) => voi
 /** The base of a new shape; `tall` goes on with its height where it has one of its own. */
 export function shapeDrag(desk: Desk, shape: Shape, from: Pointer, tall: (step: HeightStep) => void): Drag {
   const eye = desk.eye(), board = boardFor(eye), a = onBoard(eye, board, from.x, from.y);
-  const before = desk.draft.scene, index = meshesOf(before).length;
+  let placing: Placing | null = null;
+  // Nothing goes out before the shape is whole: a search for a flat box would be for nothing. Other edits may meanwhile.
+  const show = (now: Placing): void => {
+    placing = now;
+    const mesh = { file: shapeFile(shape), fill: 1, position: tidy3(now.position), scale: tidy3(now.scale) };
+    desk.draft.preview((scene) => addMesh(scene, mesh));
+  };
+  const select = (): void => desk.select({ kind: "mesh", index: meshesOf(desk.draft.scene).length - 1 });
   if (!a) return cameraDrag(desk, from, "orbit");
   desk.draft.begin(`Add ${shape}`);
-  let begun = false;
   return {
     move(p) {
       const b = onBoard(eye, board, p.x, p.y);
-      if (!b) return;
-      const placing = shapeBetween(shape, board, a, b);
-      const mesh = { file: shapeFile(shape), fill: 1, position: tidy3(placing.position), scale: tidy3(placing.scale) };
-      // Nothing goes out before the shape is whole: a search for a flat box would be for nothing.
-      desk.draft.preview(addMesh(before, mesh));
-      begun = true;
+      if (b) show(shapeBetween(shape, board, a, b));
     },
     end(p, clicked) {
-      if (clicked || !begun) return desk.draft.cancel();
-      const finish = (): void => {
+      const base = placing;
+      if (clicked || !base) return desk.draft.cancel();
+      const finish = (next?: Tool): void => {
         desk.draft.change(desk.draft.scene);
         desk.draft.end();
-        desk.select({ kind: "mesh", index });
-        desk.host.setTool("select");
+        select();
+        if (!next) desk.host.setTool("select");
         desk.say(`${shape} added`);
       };
       if (shape === "sphere" || board.upright) return finish();
-      const base = placingOf(meshesOf(desk.draft.scene)[index]!);
-      desk.select({ kind: "mesh", index });
+      select();
       tall({
-        move: (q) => desk.draft.preview(setPlacing(desk.draft.scene, index,
-          withHeight(eyeOf(desk.orbit, eye.width, eye.height), base, q.x - p.x, q.y - p.y))),
+        move: (q) => show(withHeight(eyeOf(desk.orbit, eye.width, eye.height), base, q.x - p.x, q.y - p.y)),
         finish,
         cancel: () => { desk.draft.cancel(); desk.select(null); },
       });
@@ -179,7 +180,8 @@ export function shapeDrag(desk: Desk, shape: Shape, from: Pointer, tall: (step: 
 /** The height of a shape follows the pointer until it is pressed again. */
 export interface HeightStep {
   move(p: { x: number; y: number }): void;
-  finish(): void;
+  /** `next`: the tool that was chosen instead of this one. */
+  finish(next?: Tool): void;
   cancel(): void;
 }
 

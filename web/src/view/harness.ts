@@ -30,6 +30,7 @@ const host: ViewHost = {
     events.push({ edit: change.label, gesture: change.gesture });
     scene = change.scene;
     setTimeout(() => view.setScene(structuredClone(change.scene), (path) => path), 5);
+    return scene;
   },
   select: (selection) => { events.push({ select: selection }); view.setSelection(selection); },
   setTool: (tool) => { events.push({ tool }); view.setTool(tool); },

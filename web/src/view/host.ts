@@ -13,8 +13,9 @@ export type Selection =
 
 /** What the view asks for. All of it ends up as an edit of the document. */
 export interface ViewHost {
-  /** The scene shall be `scene`. Edits with the same gesture in a row are one step of undo; `search`: search anew. */
-  edit(change: { label: string; gesture?: string; scene: Scene; search: boolean }): void;
+  /** The scene shall be `scene`. Edits with the same gesture in a row are one step of undo; `search`: search anew. Returns
+   *  the scene that it became, which may have more to it. */
+  edit(change: { label: string; gesture?: string; scene: Scene; search: boolean }): Scene;
   select(selection: Selection | null): void;
   setTool(tool: Tool): void;
   /** Settings of a curve that is drawn: those of the curve drawn or selected last. */
@@ -67,7 +68,8 @@ export interface Portrait {
 export interface StudioView {
   /** Binary messages as they come: docs/studio-protocol.md. */
   setMeshes(message: ArrayBuffer): void;
-  setModel(message: ArrayBuffer): void;
+  /** null: none, until another comes. */
+  setModel(message: ArrayBuffer | null): void;
   setCloud(message: ArrayBuffer | null): void;
   setRules(names: string[]): void;
   setScene(scene: Scene, fileUrl: (path: string) => string): void;

@@ -142,7 +142,8 @@ export class Input {
   private keyDown(e: KeyboardEvent): void {
     if (e.defaultPrevented || e.target !== this.element) return;
     const key: Key = { key: e.key, shift: e.shiftKey, ctrl: e.ctrlKey || e.metaKey, alt: e.altKey };
-    const handled = e.key === "Escape" && this.cancel() ? true : this.target.key(key);
+    // While something is dragged, what else a key would change is in the hand: only Escape means anything.
+    const handled = this.drag ? e.key !== "Escape" || this.cancel() : this.target.key(key);
     if (!handled) return;
     e.preventDefault();
     e.stopPropagation();

@@ -14,6 +14,13 @@ import type { Stage } from "./stage";
 import { boneStrokes, StrokeBatch } from "./stroke_batch";
 import { emptyBox, grow, isEmpty, type Box, type V } from "./vec";
 
+const kNoMeshes: MeshTable = { number: 0, meshes: [] };
+const kNoModel: ModelMessage = {
+  number: 0, table: 0, instances: 0, floats: new Float32Array(0), words: new Uint32Array(0), bones: 0,
+  boneFloats: new Float32Array(0), boneWords: new Uint32Array(0), materials: 0, materialFloats: new Float32Array(0),
+  genes: 0, geneWords: new Int32Array(0),
+};
+
 export class ModelLayer {
   readonly bones: StrokeBatch;
   readonly cloud = new CloudPoints();
@@ -42,6 +49,12 @@ export class ModelLayer {
     this.table = decodeMeshes(message);
   }
 
+  /** Nothing is drawn any more, and the meshes are forgotten. */
+  clear(): void {
+    this.table = null;
+    this.take(kNoModel, kNoMeshes);
+  }
+
   /** Returns the number of the model. */
   setModel(message: ArrayBuffer): number {
     const { table } = this;
@@ -50,6 +63,11 @@ export class ModelLayer {
     if (model.table !== table.number) {
       throw new MessageError(`ESPM: made with mesh table ${model.table}; the one here is ${table.number}`);
     }
+    this.take(model, table);
+    return model.number;
+  }
+
+  private take(model: ModelMessage, table: MeshTable): void {
     const { parts } = this.stage;
     if (this.drawnTable !== table) parts.setMeshes(table);
     this.drawnTable = table;
@@ -62,7 +80,6 @@ export class ModelLayer {
     if (!isEmpty(this.box)) contactPatch(model, parts.extents, this.box, this.scratch, this.stage.ground.bytes);
     this.stage.ground.setPatch(isEmpty(this.box) ? null : contactSquare(this.box));
     this.mark();
-    return model.number;
   }
 
   setCloud(message: ArrayBuffer | null): void {

@@ -5,7 +5,7 @@ import { cameraDrag, clickOnly, curveDrag, gizmoDrag, pointDrag, shapeDrag, stro
   type HeightStep } from "./drags";
 import { gizmoHandles, hitGizmo } from "./gizmo";
 import { hitGnomon } from "./gnomon";
-import { isHidden } from "./host";
+import { isHidden, type Tool } from "./host";
 import { depthOf } from "./orbit";
 import type { Hover } from "./overlay";
 import { placingOf } from "./placing";
@@ -85,7 +85,7 @@ export class Tools {
     return cameraDrag(desk, p, p.shift ? "pan" : "orbit", (q) => this.click(q));
   }
 
-  /** Leaves what is half done: the tool changed, or Escape. True where there was something. */
+  /** Leaves what is half done: Escape. True where there was something. */
   cancel(): boolean {
     const step = this.height;
     this.height = null;
@@ -93,11 +93,11 @@ export class Tools {
     return step !== null;
   }
 
-  /** Ends the height by the keyboard. */
-  finish(): boolean {
+  /** Takes the height as it is: by the keyboard, or because another tool was chosen. */
+  finish(next?: Tool): boolean {
     const step = this.height;
     this.height = null;
-    step?.finish();
+    step?.finish(next);
     return step !== null;
   }
 

@@ -157,6 +157,45 @@ describe("doing", () => {
     expect(bench.socket.sent.slice(-4).map((one) => one.kind)).toEqual(["set_genes", "set_genes", "undo_breeding", "redo_breeding"]);
   });
 
+  test("sliders of two gestures are two edits, however quick", () => {
+    for (const [gesture, quantile] of [["a", 0.1], ["a", 0.2], ["b", 0.3], ["b", 0.4]] as const) room().setGenes(1, [{ gene: 0, index: 4, quantile }], gesture, "Set");
+    expect(sent("set_genes").map((one) => (one as { gesture: string }).gesture)).toEqual(["a", "a"]);
+    room().undo();
+    expect(sent("set_genes")).toMatchObject([{ gesture: "a" }, { gesture: "a", draws: [{ quantile: 0.2 }] }, { gesture: "b", draws: [{ quantile: 0.4 }] }]);
+  });
+
+  test("out of sight is out of the room, and back again", () => {
+    room().go(true);
+    room().go(false);
+    expect(sent("leave_breeding")).toHaveLength(1);
+    bench.socket.say({ kind: "breedings", sessions: [breedingOf(1, []).session] });
+    expect(sent("open_breeding")).toHaveLength(0);
+    room().go(true);
+    expect(sent("open_breeding")).toMatchObject([{ session: 1 }]);
+  });
+
+  test("a session that another page deleted is none any more", () => {
+    bench.socket.say({ kind: "breedings", sessions: [] });
+    expect(room().state.breeding.value).toBeNull();
+  });
+
+  test("two are compared once, and the next generation has pairs of its own", async () => {
+    room().look("pairs");
+    void room().pick(0);
+    void room().pick(0);
+    expect(sent("compare")).toHaveLength(1);
+    await bench.answer("compare");
+    bench.socket.say(breedingOf(1, [4, 5, 6], { generation: 2 }));
+    expect(room().state.close.value).toEqual({ kind: "pairs", pair: [4, 5] });
+  });
+
+  test("without a connection nothing is lost in silence", () => {
+    bench.socket.onclose!();
+    room().point(1, 1);
+    expect(sent("rate")).toEqual([]);
+    expect(bench.studio.state.notices.value.at(-1)!.text).toContain("nothing was changed");
+  });
+
   test("a mode without ratings sends none, and says why", () => {
     bench.socket.say(breedingOf(1, [1], { settings: { mode: "edit" } }));
     room().point(1, 1);

@@ -229,8 +229,9 @@ describe("editing", () => {
 
   test("the first curve of a scene brings the guided engine, later ones do not", async () => {
     const bench = await new Bench().open();
-    bench.studio.edit({ label: "Draw", scene: { curves: { curve: [curve] } }, search: true });
+    const taken = bench.studio.edit({ label: "Draw", scene: { curves: { curve: [curve] } }, search: true });
     expect(bench.studio.scene.value.search).toEqual({ engine: "guided" });
+    expect(taken).toEqual(bench.studio.scene.value);
     await bench.answer("edit");
     bench.studio.edit({ label: "Draw", scene: { search: { engine: "ga" }, curves: { curve: [curve, curve] } }, search: true });
     expect(bench.studio.scene.value.search).toEqual({ engine: "ga" });

@@ -6,7 +6,7 @@ import type { Edit } from "./fake_desk";
 function setup(): { draft: Draft; edits: Edit[]; frame(): void; wait(): void } {
   const edits: Edit[] = [];
   let frames: (() => void)[] = [], later: (() => void) | null = null;
-  const draft = new Draft({ edit: (e) => edits.push(e) }, {
+  const draft = new Draft({ edit: (e) => (edits.push(e), e.scene) }, {
     frame: (call) => { frames.push(call); },
     later: (call) => { later = call; return () => { later = null; }; },
   }, () => {});
@@ -98,7 +98,7 @@ describe("Draft", () => {
   it("previews without sending, and has a gesture of its own for each drag", () => {
     const { draft, edits, frame } = setup();
     draft.begin("A");
-    draft.preview(seed(3));
+    draft.preview(() => seed(3));
     frame();
     expect([draft.scene.seed, edits.length, draft.busy]).toEqual([3, 0, true]);
     draft.change(draft.scene);
@@ -109,5 +109,43 @@ describe("Draft", () => {
     expect(edits[0]!.gesture).not.toBe(edits[1]!.gesture);
     draft.change(seed(5));
     expect(draft.scene.seed).toBe(4);
+  });
+
+  it("keeps what the page adds to an edit through the edits that follow at once", () => {
+    const scenes: Scene[] = [];
+    let draft: Draft | null = null;
+    const edit = ({ scene }: Edit): Scene => {
+      const taken = scenes.length === 0 ? { ...scene, search: { engine: "guided" } } : scene;
+      scenes.push(taken);
+      draft!.receive(structuredClone(taken)); // the page shows an edit before the call returns
+      return taken;
+    };
+    draft = new Draft({ edit }, { frame: (call) => call(), later: () => () => {} }, () => {});
+    draft.once("Draw curve 1", seed(1));
+    expect(draft.scene.search).toEqual({ engine: "guided" });
+    draft.once("Move curve 1", { ...draft.scene, seed: 2 });
+    expect(scenes[1]).toEqual({ seed: 2, search: { engine: "guided" } });
+    draft.receive(seed(9));
+    expect(draft.scene).toEqual(seed(9));
+  });
+
+  it("lays a preview over what others edit meanwhile, and sends it with theirs", () => {
+    const { draft, edits } = setup();
+    draft.receive(seed(0));
+    draft.begin("Add");
+    draft.preview((scene) => ({ ...scene, budget: { seconds: 1 } }));
+    draft.receive(seed(5));
+    expect(draft.scene).toEqual({ seed: 5, budget: { seconds: 1 } });
+    draft.change(draft.scene);
+    draft.end();
+    expect(edits.map((e) => e.scene)).toEqual([{ seed: 5, budget: { seconds: 1 } }]);
+
+    draft.receive(edits[0]!.scene);
+    draft.begin("Add");
+    draft.preview((scene) => ({ ...scene, budget: { seconds: 2 } }));
+    draft.receive(seed(6));
+    draft.cancel();
+    expect(draft.scene).toEqual(seed(6));
+    expect(edits).toHaveLength(1);
   });
 });

@@ -31,7 +31,10 @@ export class FakeDesk implements Desk {
   readonly draft: Draft;
   readonly host: ViewHost = {
     paintedBefore: () => null,
-    edit: (change) => this.edits.push(change),
+    edit: (change) => {
+      this.edits.push(change);
+      return change.scene;
+    },
     select: (selection) => this.selections.push(selection),
     setTool: (tool) => this.toolsSet.push(tool),
     newCurve: (): Omit<Curve, "points"> => ({ offset: 0.7 }),

@@ -69,6 +69,20 @@ describe("Input", () => {
     expect(input.active).toBe(false);
   });
 
+  it("leaves no key to others while something is dragged: undo would change what is in the hand", () => {
+    const press = (): boolean => {
+      const undo = new KeyboardEvent("keydown", { key: "z", ctrlKey: true, cancelable: true });
+      element.dispatchEvent(undo);
+      return undo.defaultPrevented;
+    };
+    keys = false;
+    expect(press()).toBe(false);
+    send("pointerdown", 10, 10);
+    expect(press()).toBe(true);
+    expect(log).toEqual(["key z", "press 10 10"]);
+    send("pointerup", 10, 10);
+  });
+
   it("pinches with two fingers, and drops what one had begun", () => {
     send("pointerdown", 100, 100, { pointerType: "touch" });
     send("pointerdown", 200, 100, { pointerType: "touch", pointerId: 2 });

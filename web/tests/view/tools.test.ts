@@ -233,6 +233,30 @@ describe("shapes", () => {
     expect(desk.selection).toEqual({ kind: "mesh", index: 1 });
   });
 
+  it("keeps what a panel or undo changed while a box got its height", () => {
+    const desk = new FakeDesk(scene), tools = new Tools(desk);
+    desk.tool = "box";
+    drag(tools.press(pointer(...at(desk, [-1, 0, 1]))), [at(desk, [1, 0, 2])]);
+    const { volume: _, ...without } = scene;
+    desk.draft.receive({ ...without, seed: 77 });
+    expect(meshesOf(desk.draft.scene)).toHaveLength(1);
+    tools.press(pointer(300, 200));
+    expect(desk.edits).toHaveLength(1);
+    expect(desk.edits[0]!.scene.seed).toBe(77);
+    expect(meshesOf(desk.edits[0]!.scene)).toHaveLength(1);
+    expect(desk.selection).toEqual({ kind: "mesh", index: 0 });
+  });
+
+  it("keeps a shape where another tool is chosen before its height is", () => {
+    const desk = new FakeDesk(scene), tools = new Tools(desk);
+    desk.tool = "box";
+    drag(tools.press(pointer(...at(desk, [-1, 0, 1]))), [at(desk, [1, 0, 2])]);
+    expect(tools.finish("curve")).toBe(true);
+    expect(meshesOf(desk.edits[0]!.scene)).toHaveLength(2);
+    expect(desk.toolsSet).toEqual([]);
+    expect(desk.draft.busy).toBe(false);
+  });
+
   it("makes a ball that stands on the ground, at once", () => {
     const desk = new FakeDesk({}), tools = new Tools(desk);
     desk.tool = "sphere";
