@@ -93,6 +93,17 @@ class Leveller {
     collect();
   }
 
+  /// Of all pieces that stay.
+  std::uint64_t count() {
+    keep_largest();
+    thin_foliage();
+    std::uint64_t sum = 0;
+    for (const std::vector<Piece>* pieces : {&solids_, &foliage_}) {
+      for (const Piece& piece : *pieces) sum += piece.triangles;
+    }
+    return sum;
+  }
+
   Parts make() {
     keep_largest();
     const std::uint64_t leaves = thin_foliage();
@@ -305,6 +316,11 @@ class Leveller {
 Parts parts_at(const Model& model, const MeshTable& meshes, const std::vector<Material>& materials,
                const LevelOfDetail& lod, bool full) {
   return Leveller(model, meshes, materials, lod, full).make();
+}
+
+std::uint64_t most_triangles_at(const Model& model, const MeshTable& meshes, const std::vector<Material>& materials,
+                                const LevelOfDetail& lod, bool full) {
+  return Leveller(model, meshes, materials, lod, full).count();
 }
 
 std::uint64_t triangle_count(const Parts& parts) {

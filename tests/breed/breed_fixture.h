@@ -5,19 +5,13 @@
 #include <memory>
 #include <string>
 
-#include "base/error.h"
 #include "base/executor.h"
 #include "breed/breed_problem.h"
 #include "breed/usual_viability.h"
+#include "no_files.h"
 #include "shipped_grammar.h"
 
 namespace espalier::test {
-
-/// For grammars without mesh files.
-class NoFiles final : public MeshSource {
- public:
-  Mesh load(const std::string& path) override { throw Error(path + ": tests of breeding have no mesh files"); }
-};
 
 struct BreedFixture {
   BreedProblem problem;
@@ -26,8 +20,7 @@ struct BreedFixture {
                         const std::function<void(ModelAppraiser::Settings&)>& change = {}, BatchScorer* targets = nullptr)
       : executor_(make_thread_executor(threads)) {
     problem.graph = compile_shipped(grammar);
-    NoFiles files;
-    meshes_ = MeshTable(*problem.graph, "", files);
+    meshes_ = meshes_of(*problem.graph);
     ModelAppraiser::Settings settings;
     settings.viability = usual_viability(*problem.graph, meshes_);
     if (change) change(settings);

@@ -19,6 +19,10 @@ using ::testing::HasSubstr;
 
 RandomStream stream(std::uint32_t i) { return RandomStream({4, Purpose::test, 0, i, 0}); }
 
+std::pair<Derivation, Derivation> two_newcomers(const GeneratorGraph& graph, RandomStream& random) {
+  return {draw_newcomer(graph, random), draw_newcomer(graph, random)};
+}
+
 const char* const kGrammars[] = {"gentree.esp", "gentree-natural.esp", "spaceship.esp", "tree-v2.esp", "plant.esp"};
 
 TEST(Variation, EveryChildIsAValidDerivation) {
@@ -82,7 +86,7 @@ TEST(Variation, CrossingStartDrawsTakesEachFromOneOfTheTwo) {
   int from_second = 0;
   for (std::uint32_t i = 0; i < 300; ++i) {
     RandomStream random = stream(i);
-    const Derivation a = draw_newcomer(*graph, random), b = draw_newcomer(*graph, random);
+    const auto [a, b] = two_newcomers(*graph, random);
     const Derivation child = cross(*graph, a, b, {}, random);
     for (std::size_t k = 0; k < 13; ++k) {
       EXPECT_TRUE(child.draws[k] == a.draws[k] || child.draws[k] == b.draws[k]);
@@ -95,7 +99,7 @@ TEST(Variation, CrossingStartDrawsTakesEachFromOneOfTheTwo) {
 TEST(Variation, BlendIsTheWeightedMeanAndOneParentAloneIsItself) {
   const auto graph = test::compile_shipped("gentree.esp");
   RandomStream random = stream(3);
-  const Derivation a = draw_newcomer(*graph, random), b = draw_newcomer(*graph, random);
+  const auto [a, b] = two_newcomers(*graph, random);
   const Derivation* two[] = {&a, &b};
   const double one_sided[] = {0, 2}, even[] = {1, 1};
   const Derivation second = blend(*graph, two, one_sided, {}), mixed = blend(*graph, two, even, {});
@@ -134,7 +138,7 @@ TEST(Variation, WhatIsHeldStays) {
     held.draws = {{{}, 2}, {{}, 12}};
     for (std::uint32_t i = 0; i < 200; ++i) {
       RandomStream random = stream(i);
-      const Derivation a = draw_newcomer(*graph, random), b = draw_newcomer(*graph, random);
+      const auto [a, b] = two_newcomers(*graph, random);
       const Derivation* two[] = {&a, &b};
       const double weights[] = {0.2, 0.8};
       Derivation leaning = a;
@@ -159,7 +163,7 @@ TEST(Variation, LockedSubtreesStayInTreesOfGenes) {
   int locked = 0;
   for (std::uint32_t i = 0; i < 150; ++i) {
     RandomStream random = stream(i);
-    const Derivation a = draw_newcomer(*graph, random), b = draw_newcomer(*graph, random);
+    const auto [a, b] = two_newcomers(*graph, random);
     if (a.size() < 3) continue;
     const std::uint32_t gene = 1 + random.below(static_cast<std::uint32_t>(a.size()) - 1);
     Held held;

@@ -18,8 +18,7 @@ using ::testing::HasSubstr;
 ViabilityReport judged(const std::string& body, const ViabilitySettings& settings = ViabilitySettings()) {
   const CompileResult result = compile_grammar({"g.esp", "grammar g 1\nstart A\nrule A {\n" + body + "\n}\n", {}, {}});
   EXPECT_TRUE(result.graph) << render(result.diagnostics, result.sources);
-  test::NoFiles files;
-  const MeshTable meshes(*result.graph, "", files);
+  const MeshTable meshes = test::meshes_of(*result.graph);
   Expander expander(*result.graph);
   Model model;
   RandomStream random({1, Purpose::test, 0, 0, 0});
@@ -80,8 +79,7 @@ TEST(Viability, RefusesBadSettings) {
 TEST(UsualViability, KnowsWhichGrammarsStandOnTheGround) {
   const auto usual = [](const std::string& name) {
     const auto graph = test::compile_shipped(name);
-    test::NoFiles files;
-    return usual_viability(*graph, MeshTable(*graph, "", files));
+    return usual_viability(*graph, test::meshes_of(*graph));
   };
   EXPECT_EQ(usual("gentree.esp").most_below_ground, ViabilitySettings().most_below_ground);
   EXPECT_EQ(usual("plant.esp").most_below_ground, ViabilitySettings().most_below_ground);

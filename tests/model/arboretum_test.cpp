@@ -3,8 +3,9 @@
 #include <functional>
 
 #include "model/limbs.h"
-#include "model/shipped.h"
 #include "model/surfaces.h"
+#include "model/tree_genes.h"
+#include "no_files.h"
 
 namespace espalier {
 namespace {
@@ -13,44 +14,17 @@ using namespace test;
 
 constexpr std::uint32_t kMost = 0xffffffffu;
 
-class NoFiles : public MeshSource {
- public:
-  Mesh load(const std::string&) override { return {}; }
-};
-
 class Arboretum : public testing::Test {
  protected:
-  using Values = std::map<std::string, double>;  // quantiles; what is not named is 0.5
-
-  Model tree(const Values& quantiles, std::uint64_t seed = 1) const {
-    RandomStream random = stream_of(1);
-    Derivation derivation = seedling(*graph_, random);
-    derivation.detail_seed = seed;
-    std::fill(derivation.draws.begin(), derivation.draws.end(), 0x80000000u);
-    for (const auto& [name, u] : quantiles) {
-      const auto& draws = graph_->rules[0].draws;
-      const auto named = [&gene = name](const DrawComponent& d) { return d.name == "Tree." + gene; };
-      const auto at = std::find_if(draws.begin(), draws.end(), named);
-      EXPECT_NE(at, draws.end()) << name;
-      derivation.draws.at(static_cast<std::size_t>(at - draws.begin())) =
-          u >= 1 ? kMost : static_cast<std::uint32_t>(u * 4294967296.0);
-    }
-    Model model;
-    Expander(*graph_).expand(derivation, ExpandTo::full, model);
-    return model;
-  }
-  MeshTable meshes() const {
-    NoFiles files;
-    return MeshTable(*graph_, "", files);
-  }
+  Model tree(const Quantiles& quantiles, std::uint64_t seed = 1) const { return tree_of(*graph_, quantiles, 0.5, seed); }
   std::size_t count(const Model& model, MeshKind kind) const {
     const auto is = [&](const Instance& i) { return graph_->meshes[i.mesh].kind == kind; };
     return static_cast<std::size_t>(std::count_if(model.instances.begin(), model.instances.end(), is));
   }
-  Bounds box(const Model& model) const { return bounds(model, meshes(), true); }
+  Bounds box(const Model& model) const { return bounds(model, meshes_of(*graph_), true); }
 
   std::shared_ptr<const GeneratorGraph> graph_ = compile_shipped("arboretum.esp");
-  const Values oak_ = {{"habit", 0.3}}, pine_ = {{"habit", 0.74}}, palm_ = {{"habit", 0.95}};
+  const Quantiles oak_ = {{"habit", 0.3}}, pine_ = {{"habit", 0.74}}, palm_ = {{"habit", 0.95}};
 };
 
 TEST_F(Arboretum, IsDrawsOfItsStartAlone) {
@@ -70,10 +44,10 @@ TEST_F(Arboretum, TheSeedGeneAloneDecidesItsChances) {
       if (a.instances[i].model_from_mesh.origin != b.instances[i].model_from_mesh.origin) return false;
     return true;
   };
-  for (const Values& kind : {oak_, pine_, palm_}) {
+  for (const Quantiles& kind : {oak_, pine_, palm_}) {
     const Model one = tree(kind, 1);
     EXPECT_TRUE(same(one, tree(kind, 99)));
-    Values other = kind;
+    Quantiles other = kind;
     other["random_seed"] = 0.25;
     EXPECT_FALSE(same(one, tree(other, 1)));
   }
@@ -100,7 +74,7 @@ TEST_F(Arboretum, GrowsThreeHabits) {
 
 TEST_F(Arboretum, RootsAreCounted) {
   for (int roots = 0; roots <= 7; ++roots) {
-    Values values = oak_;
+    Quantiles values = oak_;
     values["roots"] = (roots + 0.5) / 8;
     std::size_t low = 0;
     for (const Instance& part : tree(values).instances) {  // spans that begin a little above the trunk's foot
@@ -114,7 +88,7 @@ TEST_F(Arboretum, RootsAreCounted) {
 
 TEST_F(Arboretum, CrownGenesShapeTheCrown) {
   const auto spread = [&](const char* gene, double u) {
-    Values values = oak_;
+    Quantiles values = oak_;
     values[gene] = u;
     const Vec3 size = box(tree(values)).size();
     return std::max(size.x, size.z) / size.y;
@@ -122,7 +96,7 @@ TEST_F(Arboretum, CrownGenesShapeTheCrown) {
   EXPECT_GT(spread("crown_width", 1), 1.3f * spread("crown_width", 0));
   // A weeping tree's twigs hang: more of its leaves are low.
   const auto low_leaves = [&](double u) {
-    Values values = oak_;
+    Quantiles values = oak_;
     values["weeping"] = u;
     const Model model = tree(values);
     double sum = 0, n = 0;
@@ -136,8 +110,8 @@ TEST_F(Arboretum, CrownGenesShapeTheCrown) {
 }
 
 TEST_F(Arboretum, FlowersAndFruitComeInTheUpperThird) {
-  const auto of = [&](const Values& kind, const char* gene, double u) {
-    Values values = kind;
+  const auto of = [&](const Quantiles& kind, const char* gene, double u) {
+    Quantiles values = kind;
     values[gene] = u;
     return tree(values);
   };
@@ -157,7 +131,7 @@ TEST_F(Arboretum, LeavesReachTheTips) {
     const Frame& f = part.model_from_mesh;
     if (graph_->meshes[part.mesh].kind == MeshKind::leaf) stems.push_back(f.origin - 0.5f * f.basis[1]);
   }
-  const Limbs limbs = find_limbs(model, meshes());
+  const Limbs limbs = find_limbs(model, meshes_of(*graph_));
   std::size_t tips = 0, bare = 0;
   for (const Limb& limb : limbs.limbs) {
     const Vec3 tip = limb.joints.back().at;
@@ -172,9 +146,9 @@ TEST_F(Arboretum, LeavesReachTheTips) {
 }
 
 TEST_F(Arboretum, WoodTouchesEndToEnd) {
-  for (const Values& kind : {oak_, pine_, palm_}) {
+  for (const Quantiles& kind : {oak_, pine_, palm_}) {
     const Model model = tree(kind);
-    const Limbs limbs = find_limbs(model, meshes());
+    const Limbs limbs = find_limbs(model, meshes_of(*graph_));
     // The flare and the trunk are one limb, the longest of all.
     ASSERT_FALSE(limbs.limbs.empty());
     EXPECT_GE(limbs.limbs[0].parts.size(), 4u + 4);

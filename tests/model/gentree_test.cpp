@@ -3,7 +3,8 @@
 
 #include "base/hash.h"
 #include "model/parts.h"
-#include "model/shipped.h"
+#include "model/tree_genes.h"
+#include "no_files.h"
 
 namespace espalier {
 namespace {
@@ -21,27 +22,9 @@ const Gene kGenes[] = {{"number_of_branches", 8}, {"length_ratio", 0}, {"width_r
                        {"parent_influence", 0}, {"direction_noise", 0}, {"branch_number_noise", 0},
                        {"subtree_depth_noise", 0}, {"random_seed", 0}};
 
-std::size_t index_of(const std::string& name) {
-  return static_cast<std::size_t>(std::find_if(std::begin(kGenes), std::end(kGenes),
-                                               [&](const Gene& g) { return name == g.name; }) - std::begin(kGenes));
-}
-
 class GenTree : public testing::Test {
  protected:
-  using Values = std::map<std::string, double>;  // quantiles; what is not named is 0
-
-  Model tree(const Values& quantiles, std::uint64_t seed = 1) const {
-    RandomStream random = stream_of(1);
-    Derivation derivation = seedling(*graph_, random);
-    derivation.detail_seed = seed;
-    std::fill(derivation.draws.begin(), derivation.draws.end(), 0u);
-    for (const auto& [name, u] : quantiles) {
-      derivation.draws.at(index_of(name)) = u >= 1 ? kMost : static_cast<std::uint32_t>(u * 4294967296.0);
-    }
-    Model model;
-    Expander(*graph_).expand(derivation, ExpandTo::full, model);
-    return model;
-  }
+  Model tree(const Quantiles& quantiles, std::uint64_t seed = 1) const { return tree_of(*graph_, quantiles, 0, seed); }
 
   std::shared_ptr<const GeneratorGraph> graph_ = compile_shipped("gentree.esp", {{"leafy", "false"}});
 };
@@ -104,9 +87,9 @@ float most_lean(const Model& model) {
 }
 
 TEST_F(GenTree, DirectionsMixParentSpreadRiseAndNoise) {
-  const Values bushy = {{"number_of_branches", 1}, {"parent_influence", 1}, {"random_seed", 0.3}};
+  const Quantiles bushy = {{"number_of_branches", 1}, {"parent_influence", 1}, {"random_seed", 0.3}};
   const auto with = [&](const char* name, double u) {
-    Values values = bushy;
+    Quantiles values = bushy;
     values[name] = u;
     return most_lean(tree(values));
   };
@@ -144,7 +127,7 @@ bool equal(const Model& a, const Model& b) {
 }
 
 TEST_F(GenTree, TheSeedGeneAloneDecidesItsChances) {
-  Values values = {{"number_of_branches", 0.4}, {"tree_depth", 0.3}, {"branch_angle_delta", 1}, {"vertical_change", 0.5}};
+  Quantiles values = {{"number_of_branches", 0.4}, {"tree_depth", 0.3}, {"branch_angle_delta", 1}, {"vertical_change", 0.5}};
   values["parent_influence"] = 0.7, values["direction_noise"] = 0.5, values["random_seed"] = 0.25;
   const Model one = tree(values, 1);
   EXPECT_TRUE(equal(one, tree(values, 99))) << "whatever the model's seed";
@@ -154,10 +137,7 @@ TEST_F(GenTree, TheSeedGeneAloneDecidesItsChances) {
 
 /// The bytes of the mesh that files hold: positions and normals of all parts in model space.
 std::string mesh_hash(const GeneratorGraph& graph, const Model& model) {
-  class NoFiles : public MeshSource {
-    Mesh load(const std::string&) override { return {}; }
-  } files;
-  const Parts parts = collect_parts(model, MeshTable(graph, "", files), true);
+  const Parts parts = collect_parts(model, meshes_of(graph), true);
   std::string bytes;
   for (const Part& part : parts.parts) {
     const Mesh mesh = baked(parts.shapes[part.shape], part.model_from_shape);
@@ -170,7 +150,7 @@ std::string mesh_hash(const GeneratorGraph& graph, const Model& model) {
 
 /// Byte for byte, on every machine: these hashes never change.
 TEST_F(GenTree, TheSameGenomeGivesTheSameMesh) {
-  Values values = {{"number_of_branches", 0.4}, {"length_ratio", 0.7}, {"width_ratio", 0.5}, {"taper", 0.6},
+  Quantiles values = {{"number_of_branches", 0.4}, {"length_ratio", 0.7}, {"width_ratio", 0.5}, {"taper", 0.6},
                    {"branch_proximity", 0.5}, {"tree_depth", 0.4}, {"branch_angle_delta", 0.9},
                    {"vertical_change", 0.3}, {"parent_influence", 0.8}, {"direction_noise", 0.4},
                    {"branch_number_noise", 0.3}, {"subtree_depth_noise", 0.2}, {"random_seed", 0.123}};
@@ -184,7 +164,7 @@ TEST_F(GenTree, TheSameGenomeGivesTheSameMesh) {
 }
 
 TEST_F(GenTree, GreenTrianglesAndTheTrunkAreSettings) {
-  const Values values = {{"number_of_branches", 0.2}};  // two, depth two
+  const Quantiles values = {{"number_of_branches", 0.2}};  // two, depth two
   const std::size_t bare = tree(values).instances.size();
   graph_ = compile_shipped("gentree.esp");
   EXPECT_EQ(tree(values).instances.size(), bare + 3 * 4) << "a tuft on each of the four tips";

@@ -13,16 +13,12 @@
 #include "model/shipped.h"
 #include "model/surface_scale.h"
 #include "model/surfaces.h"
+#include "no_files.h"
 
 namespace espalier {
 namespace {
 
 using namespace test;
-
-class NoFiles : public MeshSource {
- public:
-  Mesh load(const std::string&) override { return {}; }
-};
 
 struct Subject {
   std::shared_ptr<const GeneratorGraph> graph;
@@ -34,8 +30,7 @@ struct Subject {
   Subject(const std::string& name, std::size_t genes, std::uint32_t index,
           const std::map<std::string, std::string>& attributes = {})
       : graph(compile_shipped(name, attributes)), derivation(grown(*graph, genes, index)) {
-    NoFiles files;
-    meshes = MeshTable(*graph, "", files);
+    meshes = meshes_of(*graph);
     Expander(*graph).expand(derivation, ExpandTo::full, model);
     materials = materials_of(*graph, model);
   }
@@ -83,6 +78,22 @@ TEST(LevelOfDetail, CopiesOfALargeFileAreBounded) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "level of detail 0 must have at most 20000000 triangles, got 20100000");
+  }
+}
+
+/// What is counted without meshes is what meshes have, but for slivers.
+TEST(LevelOfDetail, TrianglesAreCountedBeforeTheyAreMade) {
+  for (const char* name : kTrees) {
+    SCOPED_TRACE(name);
+    const Subject tree(name, 60, 1);
+    for (const Joints joints : {Joints::separate, Joints::smooth}) {
+      for (std::uint32_t level = 0; level < LevelOfDetail::kCount; ++level) {
+        const std::uint64_t made = triangle_count(tree.at(level, joints));
+        const std::uint64_t most = most_triangles_at(tree.model, tree.meshes, tree.materials, {level, joints});
+        EXPECT_GE(most, made) << level;
+        EXPECT_LE(most, made + made / 200 + 2) << level;
+      }
+    }
   }
 }
 
@@ -160,8 +171,7 @@ struct Row {
     for (const MeshKind kind : {MeshKind::leaf, MeshKind::box, MeshKind::sphere}) {
       graph.meshes.emplace_back().kind = kind;
     }
-    NoFiles files;
-    meshes = MeshTable(graph, "", files);
+    meshes = meshes_of(graph);
     for (int k = 0; k < leaves; ++k) {
       Instance& leaf = model.instances.emplace_back();
       leaf.model_from_mesh.origin = {static_cast<float>(2 * k), 0, 0};

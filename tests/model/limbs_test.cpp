@@ -7,24 +7,19 @@
 #include <glm/geometric.hpp>
 
 #include "model/shipped.h"
+#include "no_files.h"
 
 namespace espalier {
 namespace {
 
 using namespace test;
 
-class NoFiles : public MeshSource {
- public:
-  Mesh load(const std::string&) override { return {}; }
-};
-
 /// 0: cone, 1: cylinder, 2: sphere, 3: box.
 MeshTable table() {
   GeneratorGraph graph;
   for (const MeshKind kind : {MeshKind::cone, MeshKind::cylinder, MeshKind::sphere, MeshKind::box})
     graph.meshes.emplace_back().kind = kind;
-  NoFiles files;
-  return MeshTable(graph, "", files);
+  return meshes_of(graph);
 }
 
 Instance span(const Vec3& from, const Vec3& to, float radius, float tip, std::uint16_t material = 0) {
@@ -139,8 +134,7 @@ TEST(Limbs, CrowdsEnd) {
 TEST(Limbs, FollowTheBonesOfTheGuidedTree) {
   const auto graph = compile_shipped("guided-tree.esp");
   const Grown tree(*graph, grown(*graph, 100, 3), ExpandTo::full);
-  NoFiles files;
-  const MeshTable meshes(*graph, "", files);
+  const MeshTable meshes = meshes_of(*graph);
   const Limbs limbs = find_limbs(tree.model, meshes);
   std::size_t joined = 0, stray = 0;
   for (const Limb& limb : limbs.limbs) {

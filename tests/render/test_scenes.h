@@ -6,14 +6,10 @@
 
 #include "base/executor.h"
 #include "model/primitives.h"
+#include "no_files.h"
 #include "render/render.h"
 
 namespace espalier {
-
-class NoFiles final : public MeshSource {
- public:
-  Mesh load(const std::string&) override { return {}; }
-};
 
 /// All primitives; the index of a mesh is the number of its kind.
 inline MeshTable primitive_table() {
@@ -22,8 +18,7 @@ inline MeshTable primitive_table() {
     graph.meshes.emplace_back().kind = static_cast<MeshKind>(kind);
     graph.meshes.back().sides = 16;
   }
-  NoFiles source;
-  return MeshTable(graph, "", source);
+  return test::meshes_of(graph);
 }
 
 inline Mat3 scaling(float x, float y, float z) { return Mat3(Vec3(x, 0, 0), Vec3(0, y, 0), Vec3(0, 0, z)); }

@@ -65,8 +65,7 @@ Drawn draw(const std::string& material, const std::string& mesh = "quad",
   RandomStream random({1, Purpose::test, 0, 0});
   Model model;
   Expander(*graph).expand(sample(*graph, random, 100).derivation, ExpandTo::full, model);
-  NoFiles source;
-  const MeshTable meshes(*graph, "", source);
+  const MeshTable meshes = test::meshes_of(*graph);
   TextureTable textures;
   RenderSettings settings = small_settings();
   settings.azimuth_deg = 0, settings.elevation_deg = 5;

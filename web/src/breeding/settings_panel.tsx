@@ -3,13 +3,17 @@ import type { RoomSettings } from "../api";
 import { CheckField, ChoiceField } from "../controls/fields";
 import { NumberField } from "../controls/number_field";
 import { Slider } from "../controls/slider";
+import { AttributesPanel } from "../panels/attributes";
 import { useStudio } from "../shell/studio_context";
 import { GenesisPanel } from "./genesis_panel";
 import { kModeNames, kModes } from "./modes";
 
 export function SettingsPanel() {
-  const { room } = useStudio();
+  const studio = useStudio();
+  const { room } = studio;
   const breeding = room.state.breeding.value;
+  // What is no gene: leaves or not, how stout. All of the generation has the same.
+  const attributes = studio.state.checked.value?.attributes.length ?? 0;
   if (breeding === null) return null;
   const { settings } = breeding;
   const set = (change: RoomSettings, gesture = Object.keys(change).join(" ")) => room.set(change, gesture);
@@ -35,6 +39,7 @@ export function SettingsPanel() {
         <NumberField label="Spread" title="0: without limit" value={settings.max_spread ?? 0} min={0} step={0.5} unit="m" onChange={(value, gesture) => set({ max_spread: value }, gesture)} />
         <p class="hint">0 is without limit. The scene's own targets and limits count as well.</p>
       </section>
+      {attributes > 0 && <AttributesPanel />}
       {!free && <GenesisPanel knobs={settings.classic ?? {}} onChange={(classic, gesture) => set({ classic }, gesture)} />}
       <p class="hint">{free ? "Free breeding, seed" : "GenTree classic, seed"} {breeding.seed}.</p>
     </div>
