@@ -37,10 +37,14 @@ std::string highest(const ZipFiles& files, const std::string& name) {
 
 /// The scene that a derivation was made with, as its provenance has it.
 std::string settings_of(const std::string& derivation, const std::string& path) {
-  if (derivation.size() > kMostModelBytes) throw Error(fmt::format("{}: must have at most {} bytes", path, kMostModelBytes));
+  if (derivation.size() > kMostModelBytes) {
+    throw Error(fmt::format("{}: must have at most {} bytes", path, kMostModelBytes));
+  }
   const auto flat = [](int depth, nlohmann::json::parse_event_t, nlohmann::json&) { return depth < 8; };
   const nlohmann::json json = nlohmann::json::parse(derivation, flat, false);
-  if (!json.is_object() || !json.contains("provenance")) throw Error(fmt::format("{} does not say which grammar it belongs to", path));
+  if (!json.is_object() || !json.contains("provenance")) {
+    throw Error(fmt::format("{} does not say which grammar it belongs to", path));
+  }
   return parse_provenance(json["provenance"].dump()).settings;
 }
 

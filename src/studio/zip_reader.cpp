@@ -29,7 +29,9 @@ std::uint32_t number(std::string_view bytes, std::size_t from, std::size_t size)
   for (std::size_t i = size; i-- > 0;) value = value << 8 | static_cast<unsigned char>(found[i]);
   return value;
 }
-std::uint16_t read16(std::string_view bytes, std::size_t from) { return static_cast<std::uint16_t>(number(bytes, from, 2)); }
+std::uint16_t read16(std::string_view bytes, std::size_t from) {
+  return static_cast<std::uint16_t>(number(bytes, from, 2));
+}
 std::uint32_t read32(std::string_view bytes, std::size_t from) { return number(bytes, from, 4); }
 
 /// The end of the directory lies at the archive's end, before a comment.
@@ -37,14 +39,16 @@ std::string_view find_end(std::string_view archive) {
   if (archive.size() < kEndHead) fail_damaged();
   const std::size_t last = archive.size() - kEndHead, least = last > kMostComment ? last - kMostComment : 0;
   for (std::size_t at = last;; --at) {
-    if (read32(archive, at) == kEnd && at + kEndHead + read16(archive, at + 20) == archive.size()) return archive.substr(at);
+    const bool ends = read32(archive, at) == kEnd && at + kEndHead + read16(archive, at + 20) == archive.size();
+    if (ends) return archive.substr(at);
     if (at == least) fail_damaged();
   }
 }
 
 bool leads_elsewhere(std::string_view path) {
   if (path.empty() || path.size() > kMostPath) return true;
-  if (std::any_of(path.begin(), path.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\\' || c == ':'; })) return true;
+  const auto is_odd = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\\' || c == ':'; };
+  if (std::any_of(path.begin(), path.end(), is_odd)) return true;
   for (std::size_t from = 0; from <= path.size();) {
     const std::size_t end = std::min(path.find('/', from), path.size());
     const std::string_view name = path.substr(from, end - from);
@@ -91,10 +95,10 @@ std::string unpacked(std::string_view archive, const Entry& entry) {
   const std::uint64_t begin = std::uint64_t{entry.offset} + kFileHead + read16(head, 26) + read16(head, 28);
   const std::string_view body = part(archive, begin, entry.packed);
   if ((entry.flags & kEncrypted) != 0) throw Error(fmt::format("{} in the zip file is encrypted", entry.path));
-  std::string bytes;
-  if (entry.method == kStored && entry.packed == entry.size) bytes = body;
-  else if (entry.method == kDeflated && entry.size <= (std::uint64_t{entry.packed} + 1) * kMostRatio) bytes = inflated(body, entry.size, entry.path);
-  else throw Error(fmt::format("{} in the zip file is packed in an unknown way", entry.path));
+  const bool plain = entry.method == kStored && entry.packed == entry.size;
+  const bool packed = entry.method == kDeflated && entry.size <= (std::uint64_t{entry.packed} + 1) * kMostRatio;
+  if (!plain && !packed) throw Error(fmt::format("{} in the zip file is packed in an unknown way", entry.path));
+  std::string bytes = plain ? std::string(body) : inflated(body, entry.size, entry.path);
   if (crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()) != entry.sum) {
     throw Error(fmt::format("{} in the zip file is damaged", entry.path));
   }
@@ -113,13 +117,15 @@ std::map<std::string, std::string> read_zip(std::string_view archive, const ZipL
     const Entry entry(directory);
     directory = part(directory, entry.length, directory.size() - std::min(entry.length, directory.size()));
     if (leads_elsewhere(entry.path.ends_with('/') ? entry.path.substr(0, entry.path.size() - 1) : entry.path)) {
-      throw Error(fmt::format("the zip file names a file \"{}\", which leads elsewhere", entry.path.substr(0, kMostPath)));
+      const std::string path = entry.path.substr(0, kMostPath);
+      throw Error(fmt::format("the zip file names a file \"{}\", which leads elsewhere", path));
     }
     if (entry.path.ends_with('/')) continue;
     bytes += entry.size;
     if (files.size() >= limits.files) throw Error(fmt::format("a zip file has at most {} files", limits.files));
     if (bytes > limits.bytes) throw Error(fmt::format("the files of a zip file have at most {} bytes", limits.bytes));
-    if (!files.emplace(entry.path, unpacked(archive, entry)).second) throw Error(fmt::format("the zip file has {} twice", entry.path));
+    const bool fresh = files.emplace(entry.path, unpacked(archive, entry)).second;
+    if (!fresh) throw Error(fmt::format("the zip file has {} twice", entry.path));
   }
   return files;
 }

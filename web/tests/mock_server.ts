@@ -256,7 +256,7 @@ export class MockServer {
         this.broadcast(project);
         return done();
       case "start_search":
-        this.runSearch(project, Math.min(3, message.seconds));
+        this.runSearch(project, message.seconds);
         return done();
       case "stop_search":
         if (this.timer !== null) clearInterval(this.timer);
