@@ -81,7 +81,7 @@ function GeneSlider({ gene, draw, individual }: { gene: BredGene; draw: Draw; in
         title={draw.low === undefined ? draw.name : `${draw.name}: ${draw.low} to ${draw.high}`}
         onChange={(quantile, gesture) => {
           setHeld(quantile);
-          room.setGenes(individual, [{ gene: gene.gene, index: draw.index, quantile }], `${individual} ${gene.path} ${gesture}`, `Set ${draw.name} of ${individual}`);
+          room.setGenes(individual, [{ gene: gene.gene, index: draw.index, quantile }], `${individual} ${gene.gene} ${gesture}`, `Set ${draw.name} of ${individual}`);
         }}
       />
       <IconButton label={locked ? `Free ${draw.name}` : `Lock ${draw.name}`} kind="small" pressed={locked} onClick={() => room.lock([{ path: gene.path, index: draw.index }], !locked)}>
