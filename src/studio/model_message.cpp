@@ -41,6 +41,16 @@ Mesh box_of(const Bounds& bounds) {
   return box;
 }
 
+void add_mesh(Writer& out, const Mesh& seen, bool cone) {
+  const Mesh mesh = with_normals(seen);
+  out.add(static_cast<std::uint32_t>(mesh.positions.size()));
+  out.add(static_cast<std::uint32_t>(mesh.triangles.size()));
+  out.add(std::uint32_t{cone});
+  for (const Vec3& p : mesh.positions) out.add(p);
+  for (const Vec3& n : mesh.normals) out.add(n);
+  for (const Triangle& t : mesh.triangles) out.add(t[0]), out.add(t[1]), out.add(t[2]);
+}
+
 /// A texture is not sent: its colours' mean stands for it.
 Vec3 seen_color(const Material& material) {
   const bool made = material.textured() && material.texture.kind != TextureKind::image;
@@ -76,14 +86,17 @@ std::string mesh_message(std::uint32_t table, const MeshTable& meshes) {
   std::size_t triangles = 0;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     triangles += meshes.mesh(i).triangles.size();
-    const Mesh mesh = with_normals(triangles > kMostSentTriangles ? box_of(meshes.mesh_bounds(i)) : meshes.mesh(i));
-    out.add(static_cast<std::uint32_t>(mesh.positions.size()));
-    out.add(static_cast<std::uint32_t>(mesh.triangles.size()));
-    out.add(std::uint32_t{meshes.ref(i).kind == MeshKind::cone});
-    for (const Vec3& p : mesh.positions) out.add(p);
-    for (const Vec3& n : mesh.normals) out.add(n);
-    for (const Triangle& t : mesh.triangles) out.add(t[0]), out.add(t[1]), out.add(t[2]);
+    add_mesh(out, triangles > kMostSentTriangles ? box_of(meshes.mesh_bounds(i)) : meshes.mesh(i),
+             meshes.ref(i).kind == MeshKind::cone);
   }
+  return out.take();
+}
+
+std::string mesh_message(std::uint32_t table, const Mesh& mesh, std::uint64_t most_triangles) {
+  Writer out("ESPG", 24 * mesh.positions.size() + 12 * mesh.triangles.size() + 16);
+  out.add(table);
+  out.add(std::uint32_t{1});
+  add_mesh(out, mesh.triangles.size() > most_triangles ? box_of(bounds(mesh)) : mesh, false);
   return out.take();
 }
 

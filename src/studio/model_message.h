@@ -18,6 +18,8 @@ inline constexpr std::size_t kMostSentTriangles = 1'000'000;
 
 /// ESPG.
 std::string mesh_message(std::uint32_t table, const MeshTable& meshes);
+/// ESPG of one mesh, or of the box around it where it has more triangles.
+std::string mesh_message(std::uint32_t table, const Mesh& mesh, std::uint64_t most_triangles);
 
 struct SentModel {
   std::string bytes;

@@ -97,7 +97,7 @@ StoredFile describe_file(const std::string& path, const std::string& bytes) {
       FileImageSource().load(folder.file(name));
       return file;
     }
-    const Mesh loaded = AssimpMeshSource({Store::kMostFileBytes, 5'000'000}).load(folder.file(name));
+    const Mesh loaded = AssimpMeshSource({Store::kMostFileBytes, kMostFileTriangles}).load(folder.file(name));
     file.triangles = loaded.triangles.size();
     const Vec3 size = bounds(loaded).size();
     file.size = {size.x, size.y, size.z};

@@ -40,6 +40,8 @@ NewProject make_sample(const std::string& name);
 /// A small grammar and a scene without targets.
 NewProject make_empty_project();
 
+inline constexpr std::uint64_t kMostFileTriangles = 5'000'000;  // of a mesh of a project
+
 /// A file's facts for the project: meshes and images are read once. Throws Error for what is damaged, or of another kind.
 StoredFile describe_file(const std::string& path, const std::string& bytes);
 

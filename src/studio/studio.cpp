@@ -243,12 +243,13 @@ HttpResponse Studio::answer(const HttpRequest& request) {
 
 HttpResponse Studio::answer_project(std::int64_t project, const HttpRequest& request, const std::string& rest) {
   constexpr std::string_view kFiles = "files/", kBreeding = "breeding/", kExport = "export/", kFavourites = "favourites/",
-                             kPreviews = "previews/";
+                             kPreviews = "previews/", kMeshes = "meshes/";
   if (rest.starts_with(kExport) && request.method == "GET") {
     const Turn turn(busy_);
     return export_project(project, rest.substr(kExport.size()));
   }
   if (rest.starts_with(kPreviews) && request.method == "GET") return preview(project, rest.substr(kPreviews.size()));
+  if (rest.starts_with(kMeshes) && request.method == "GET") return mesh_form(project, rest.substr(kMeshes.size()));
   if (rest.starts_with(kFavourites) && request.method == "GET") {
     std::string number = rest.substr(kFavourites.size()) + "/";
     std::string picture = store_.favourite_picture(project, take_number(number));
@@ -283,6 +284,15 @@ HttpResponse Studio::preview(std::int64_t project, const std::string& path) {
     if (file.path != path) continue;
     std::string png = previews_.png(file, [&](const std::string& hash) { return store_.blob(project, hash); });
     if (!png.empty()) return {200, "image/png", std::move(png)};
+  }
+  return not_found();
+}
+
+HttpResponse Studio::mesh_form(std::int64_t project, const std::string& path) {
+  for (const StoredFile& file : store_.open(project).state.files) {
+    if (file.path != path || file.triangles == 0) continue;
+    return {200, "application/octet-stream",
+            forms_.message(file, [&](const std::string& hash) { return store_.blob(project, hash); })};
   }
   return not_found();
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "studio/mesh_forms.h"
 #include "studio/mesh_previews.h"
 #include "studio/project_session.h"
 #include "studio/shipped.h"
@@ -56,9 +57,11 @@ class Studio final : public WebApp {
   HttpResponse export_project(std::int64_t project, const std::string& format);
 
   HttpResponse preview(std::int64_t project, const std::string& path);
+  HttpResponse mesh_form(std::int64_t project, const std::string& path);
 
   Store store_;
   MeshPreviews previews_;
+  MeshForms forms_;
   std::atomic<int> busy_{0};  // exports and imports that run
   std::atomic<std::int64_t> give_up_at_{0};  // see PatientExecutor
   std::mutex mutex_;          // guards what follows

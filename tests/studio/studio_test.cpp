@@ -1,5 +1,6 @@
 // The studio over a real socket, as a page sees it.
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -8,6 +9,8 @@
 #include "base/base64.h"
 #include "base/error.h"
 #include "io/file.h"
+#include "model/primitives.h"
+#include "studio/model_message.h"
 #include "studio/page.h"
 #include "studio/project_file.h"
 #include "studio/scene_json.h"
@@ -424,6 +427,62 @@ TEST_F(StudioTest, FilesComeInAndAreFilled) {
   EXPECT_EQ(page.seen["document"]["files"].size(), 0u);
   page.ask("undo");
   EXPECT_EQ(http("GET " + base + "files/my%20box.obj").body, box);
+}
+
+TEST_F(StudioTest, MeshesOfAnyFormatAreSentAsPagesDrawThem) {
+  ModelPage page = this->page();
+  page.ask("create_project", {{"name", "a"}});
+  page.wait_for_model();
+  const std::string base = "/projects/" + page.seen["document"]["project"]["id"].dump() + "/";
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const std::string ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                          "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+                          "0 0 0\n1 0 0\n0 2 0\n0 0 3\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  const std::string glb = http("GET " + base + "export/glb").body, stl = http("GET " + base + "export/stl").body;
+  const auto word = [](const std::string& message, std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, message.data() + at, sizeof(value));
+    return value;
+  };
+  for (const auto& [name, bytes] : {std::pair("m.obj", obj), std::pair("m.ply", ply), std::pair("m.glb", glb), std::pair("m.stl", stl)}) {
+    ASSERT_EQ(http("POST " + base + "files/" + name, bytes).status, 200) << name;
+    ASSERT_TRUE(page.wait_for("document", [](const json& document) { return document["files"].size() == 1; }));
+    const json file = page.seen["document"]["files"][0];
+    const Answer answer = http("GET " + base + "meshes/" + name);
+    ASSERT_EQ(answer.status, 200) << name;
+    const std::string& form = answer.body;
+    ASSERT_EQ(form.substr(0, 4), "ESPG") << name;
+    const std::uint32_t vertices = word(form, 16), triangles = word(form, 20);
+    EXPECT_EQ(word(form, 8), file["triangles"].get<std::uint32_t>()) << name;
+    EXPECT_EQ(word(form, 12), 1u);
+    EXPECT_GT(triangles, 0u);
+    EXPECT_LE(triangles, word(form, 8));
+    EXPECT_EQ(form.size(), 28 + 24 * std::size_t{vertices} + 12 * std::size_t{triangles}) << name;
+    Bounds box;
+    for (std::uint32_t v = 0; v < vertices; ++v) {
+      Vec3 p;
+      std::memcpy(&p, form.data() + 28 + 12 * v, sizeof(p));
+      box.add(p);
+    }
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(box.size()[axis], file["size"][axis].get<float>(), 1e-4f) << name;
+    page.ask("remove_file", {{"path", name}});
+    EXPECT_EQ(page.seen["document"]["files"].size(), 0u);
+  }
+  EXPECT_EQ(http("GET " + base + "meshes/m.obj").status, 404);
+  EXPECT_EQ(http("POST " + base + "files/part.esp", "rule A { }").status, 200);
+  EXPECT_EQ(http("GET " + base + "meshes/part.esp").status, 404);
+}
+
+TEST_F(StudioTest, MeshesWithTooManyTrianglesAreSentAsTheirBoxes) {
+  Mesh mesh = make_primitive(MeshKind::sphere, 1, 0);
+  for (Vec3& p : mesh.positions) p = 2.0f * p + Vec3(5, 0, 0);
+  const std::string whole = mesh_message(7, mesh, mesh.triangles.size()), box = mesh_message(7, mesh, mesh.triangles.size() - 1);
+  EXPECT_EQ(whole[20], static_cast<char>(mesh.triangles.size() & 0xff));
+  EXPECT_EQ(box[8], 7);
+  EXPECT_EQ(box[20], 12);
+  Vec3 corner;
+  std::memcpy(&corner, box.data() + 28, sizeof(corner));
+  EXPECT_NEAR(std::abs(corner.x - 5), bounds(mesh).size().x / 2, 1e-5f);
 }
 
 TEST_F(StudioTest, ExportsAreRunAndReproduced) {

@@ -99,6 +99,7 @@ export class MockServer {
     const favourite = /^\/projects\/(\d+)\/favourites\/(\d+)$/.exec(url.pathname);
     const picture = favourite && this.projects.find((one) => one.id === Number(favourite[1]))?.pictures.get(Number(favourite[2]));
     if (picture) return void response.writeHead(200, { "Content-Type": "image/webp" }).end(picture);
+    if (/^\/projects\/\d+\/meshes\//.test(url.pathname)) return void response.writeHead(200).end(Buffer.from(boxMeshes()));
     if (file !== null || url.pathname.includes("/export/")) return void response.writeHead(404).end();
     const path = normalize(url.pathname === "/" ? "/index.html" : url.pathname);
     const full = join(kPage, path);

@@ -10,9 +10,14 @@ export class Files {
     private readonly token: string,
   ) {}
 
-  /** Address of a file of a project; shapes of the studio's own too. */
+  /** Address of a file of a project. */
   url(project: number, path: string): string {
     return this.address(`projects/${project}/files/${path.split("/").map(encodeURIComponent).join("/")}`);
+  }
+
+  /** A mesh of a project as the view draws it (ESPG), whatever its format. */
+  meshUrl(project: number, path: string): string {
+    return this.address(`projects/${project}/meshes/${path.split("/").map(encodeURIComponent).join("/")}`);
   }
 
   /** A small picture of a mesh of a project. */

@@ -67,7 +67,7 @@ function follow(studio: Studio, view: StudioView): (() => void)[] {
     effect(() => view.setCloud(state.cloud.value)),
     effect(() => {
       const id = project.value;
-      if (id !== undefined) view.setScene(studio.scene.value, (path) => studio.files.url(id, path));
+      if (id !== undefined) view.setScene(studio.scene.value, (path) => studio.files.meshUrl(id, path));
     }),
     effect(() => view.setHidden(state.hidden.value)),
     effect(() => {

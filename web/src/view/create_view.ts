@@ -66,7 +66,7 @@ export class View implements StudioView, Desk {
   private readonly hands: Hands;
   private readonly input: Input;
   private readonly observer: ResizeObserver;
-  private fileUrl: (path: string) => string = (path) => path;
+  private meshUrl: (path: string) => string = (path) => path;
   private request = 0;
   private arrived: { model: number; at: number } | null = null;
   /** Whether the camera was moved by hand: then the first model does not move it. */
@@ -147,8 +147,8 @@ export class View implements StudioView, Desk {
     this.redraw();
   }
 
-  setScene(scene: Scene, fileUrl: (path: string) => string): void {
-    this.fileUrl = fileUrl;
+  setScene(scene: Scene, meshUrl: (path: string) => string): void {
+    this.meshUrl = meshUrl;
     this.draft.receive(scene);
   }
 
@@ -280,7 +280,7 @@ export class View implements StudioView, Desk {
   }
 
   private applyScene(): void {
-    this.layer.setScene(this.draft.scene, this.look, this.hidden, this.fileUrl);
+    this.layer.setScene(this.draft.scene, this.look, this.hidden, this.meshUrl);
     this.redraw();
   }
 

@@ -1,16 +1,18 @@
 // Targets as glass: meshes of volumes (blue where they are to be filled, vermilion and hatched where they are to be
 // avoided), and thick curves as tubes. Denser towards their outlines, with their creases as lines.
 import {
-  BufferAttribute, BufferGeometry, DoubleSide, GLSL3, Group, LineSegments, Matrix4, Mesh, RawShaderMaterial, Vector3,
+  BufferGeometry, DoubleSide, GLSL3, Group, LineSegments, Matrix4, Mesh, RawShaderMaterial, Vector3,
 } from "three";
 import type { Scene, VolumeMesh } from "../api";
-import { readObj } from "./obj";
+import { makeForm, type Form } from "./form";
+import { decodeMeshes } from "./messages";
 import type { Palette, Rgb } from "./palette";
 import { basisOf, place, placingOf, rayInto } from "./placing";
-import { chunkBoxes, hitBox, hitChunks, type Triangles } from "./rays";
+import { hitBox, hitChunks } from "./rays";
 import { meshesOf } from "./scene_edits";
-import { creases, shapeOf, shapeTriangles } from "./shapes";
-import { emptyBox, grow, type Box, type V } from "./vec";
+import { shapeOf, shapeTriangles } from "./shapes";
+import { atOnce, inSlices } from "./slices";
+import { grow, type Box, type V } from "./vec";
 
 const kVertex = `
 precision highp float;
@@ -49,39 +51,6 @@ export function glass(line = 0): RawShaderMaterial {
   });
 }
 
-/** Runs a long reading in slices of a few milliseconds, so that the page does not stand still. */
-async function inSlices<T>(steps: Generator<void, T>): Promise<T> {
-  for (let until = performance.now() + 8;;) {
-    const step = steps.next();
-    if (step.done) return step.value;
-    if (performance.now() < until) continue;
-    await new Promise((done) => setTimeout(done));
-    until = performance.now() + 8;
-  }
-}
-
-interface Form {
-  triangles: Triangles;
-  chunks: Float32Array;
-  surface: BufferGeometry;
-  edges: BufferGeometry;
-  box: Box;
-}
-
-export function makeForm(triangles: Triangles): Form {
-  const surface = new BufferGeometry();
-  surface.setAttribute("position", new BufferAttribute(triangles.positions, 3));
-  surface.setIndex(new BufferAttribute(triangles.indices, 1));
-  surface.computeVertexNormals();
-  const edges = new BufferGeometry(), box = emptyBox();
-  const lines = triangles.indices.length < kMostCreased ? creases(triangles) : new Float32Array(0);
-  edges.setAttribute("position", new BufferAttribute(lines, 3));
-  edges.setAttribute("normal", new BufferAttribute(new Float32Array(lines.length), 3));
-  const p = triangles.positions;
-  for (let i = 0; i < p.length; i += 3) grow(box, [p[i]!, p[i + 1]!, p[i + 2]!]);
-  return { triangles, chunks: chunkBoxes(triangles), surface, edges, box };
-}
-
 interface Ghost {
   mesh: VolumeMesh;
   form: Form | null;
@@ -90,8 +59,8 @@ interface Ghost {
 }
 
 const kMostGhosts = 64;
-/** Corners of triangles: finding creases takes a second per million. */
-const kMostCreased = 60_000;
+/** Of a mesh with more the server sends the box around it. */
+const kMostTriangles = 300_000;
 
 export class Ghosts {
   readonly group = new Group();
@@ -101,16 +70,17 @@ export class Ghosts {
   private selected = -1;
   private hidden: readonly number[] = [];
 
-  /** `changed`: a file has come; `failed`: it cannot be shown, and why. */
+  /** `changed`: a file has come; `failed`: it cannot be shown as it is, and why. */
   constructor(private readonly changed: () => void, private readonly failed: (message: string) => void) {}
 
-  /** `hidden`: meshes by their places that are neither drawn nor picked. */
-  setScene(scene: Scene, fileUrl: (path: string) => string, hidden: readonly number[] = []): void {
+  /** `meshUrl`: where a file is to be had as one mesh (ESPG). `hidden`: meshes by their places that are neither drawn nor
+   *  picked. */
+  setScene(scene: Scene, meshUrl: (path: string) => string, hidden: readonly number[] = []): void {
     this.hidden = hidden;
     const meshes = meshesOf(scene).slice(0, kMostGhosts);
     while (this.list.length > meshes.length) this.drop(this.list.pop()!);
     while (this.list.length < meshes.length) this.list.push(this.make());
-    const urls = meshes.map(({ file }) => (shapeOf(file) ? file : fileUrl(file)));
+    const urls = meshes.map(({ file }) => (shapeOf(file) ? file : meshUrl(file)));
     meshes.forEach((mesh, i) => {
       const ghost = this.list[i]!;
       ghost.mesh = mesh;
@@ -213,7 +183,7 @@ export class Ghosts {
     if (known) return typeof known === "string" ? null : known;
     const shape = shapeOf(file);
     if (shape) {
-      const form = makeForm(shapeTriangles(shape));
+      const form = atOnce(makeForm(shapeTriangles(shape)));
       this.forms.set(url, form);
       return form;
     }
@@ -236,9 +206,12 @@ export class Ghosts {
   private async fetch(file: string, url: string): Promise<void> {
     try {
       const answer = await fetch(url);
-      if (!answer.ok) throw new Error(`the server answers ${answer.status}`);
-      this.forms.set(url, makeForm(await inSlices(readObj(await answer.text()))));
+      if (!answer.ok) throw new Error((await answer.text()).trim() || `the server answers ${answer.status}`);
+      const { number, meshes: [mesh] } = decodeMeshes(await answer.arrayBuffer());
+      if (!mesh || mesh.indices.length === 0) throw new Error("it has no triangles");
+      this.forms.set(url, await inSlices(makeForm(mesh)));
       this.changed();
+      if (number > kMostTriangles) this.failed(`${file} has ${number} triangles: the box around it is shown`);
     } catch (error) {
       this.forms.set(url, "failed");
       this.failed(`${file} cannot be shown: ${error instanceof Error ? error.message : String(error)}`);

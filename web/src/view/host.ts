@@ -72,7 +72,8 @@ export interface StudioView {
   setModel(message: ArrayBuffer | null): void;
   setCloud(message: ArrayBuffer | null): void;
   setRules(names: string[]): void;
-  setScene(scene: Scene, fileUrl: (path: string) => string): void;
+  /** `meshUrl`: where a file of the scene is to be had as a mesh. */
+  setScene(scene: Scene, meshUrl: (path: string) => string): void;
   /** Targets that shall not be drawn, nor taken by the pointer or by Tab, although they count. */
   setHidden(hidden: Hidden): void;
   setSelection(selection: Selection | null): void;

@@ -1,4 +1,5 @@
 // A ray against a box and against triangles.
+import type { Steps } from "./slices";
 import type { V } from "./vec";
 
 export interface Triangles {
@@ -56,9 +57,10 @@ const kChunk = 3 * 256;
 
 /** Boxes around every 256 triangles in their order, 6 floats each: neighbours in a file mostly are neighbours in
  *  space. */
-export function chunkBoxes({ positions, indices }: Triangles): Float32Array {
+export function* chunkBoxes({ positions, indices }: Triangles): Steps<Float32Array> {
   const boxes = new Float32Array(6 * Math.ceil(indices.length / kChunk));
   for (let c = 0; 6 * c < boxes.length; ++c) {
+    if (c % 16 === 15) yield;
     boxes.fill(Infinity, 6 * c, 6 * c + 3).fill(-Infinity, 6 * c + 3, 6 * c + 6);
     for (let i = c * kChunk; i < Math.min((c + 1) * kChunk, indices.length); ++i) {
       for (let k = 0; k < 3; ++k) {

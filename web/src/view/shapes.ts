@@ -1,5 +1,6 @@
 // The studio's own volumes, each within -0.5..0.5, and the creases of any mesh.
 import type { Triangles } from "./rays";
+import type { Steps } from "./slices";
 
 export const kShapes = ["box", "sphere", "cylinder"] as const;
 export type Shape = (typeof kShapes)[number];
@@ -55,10 +56,14 @@ export function shapeTriangles(shape: Shape): Triangles {
   }), 48);
 }
 
+/** Vertices and triangles between two pauses. */
+const kPause = 1000;
+
 /** Corner points with a number for each place: vertices that lie together count as one. */
-function welded({ positions }: Triangles): Uint32Array {
+function* welded({ positions }: Triangles): Steps<Uint32Array> {
   const numbers = new Map<string, number>(), result = new Uint32Array(positions.length / 3);
   for (let i = 0; i < result.length; ++i) {
+    if (i % kPause === kPause - 1) yield;
     const key = [0, 1, 2].map((k) => positions[3 * i + k]!.toFixed(5)).join();
     let number = numbers.get(key);
     if (number === undefined) numbers.set(key, number = i);
@@ -68,11 +73,12 @@ function welded({ positions }: Triangles): Uint32Array {
 }
 
 /** Edges between faces that meet at more than `angle` degrees, and open ones: ends of lines, 6 floats each. */
-export function creases(mesh: Triangles, angle = 35): Float32Array {
-  const { positions, indices } = mesh, weld = welded(mesh), limit = Math.cos(angle * Math.PI / 180);
+export function* creases(mesh: Triangles, angle = 35): Steps<Float32Array> {
+  const { positions, indices } = mesh, weld = yield* welded(mesh), limit = Math.cos(angle * Math.PI / 180);
   const edges = new Map<number, { a: number; b: number; n: [number, number, number]; count: number; sharp: boolean }>();
   const corner = (i: number, k: number): number => positions[3 * i + k]!;
   for (let t = 0; t < indices.length; t += 3) {
+    if (t % (3 * kPause) === 0) yield;
     const v = [weld[indices[t]!]!, weld[indices[t + 1]!]!, weld[indices[t + 2]!]!] as const;
     if (v[0] === v[1] || v[1] === v[2] || v[2] === v[0]) continue;
     const e = [0, 1, 2].map((k) => [corner(v[1], k) - corner(v[0], k), corner(v[2], k) - corner(v[0], k)] as const);

@@ -34,9 +34,9 @@ export class TargetLayer {
     stage.add(this.overlay.mesh, 9);
   }
 
-  setScene(scene: Scene, look: Look, hidden: Hidden, fileUrl: (path: string) => string): void {
+  setScene(scene: Scene, look: Look, hidden: Hidden, meshUrl: (path: string) => string): void {
     const curves = scene.curves?.curve;
-    this.ghosts.setScene(scene, fileUrl, hidden.meshes);
+    this.ghosts.setScene(scene, meshUrl, hidden.meshes);
     this.ghosts.group.visible = look.targets;
     if (this.curves !== curves || this.hidden !== hidden.curves) this.tubes.set(shownCurves(scene, hidden));
     this.curves = curves;

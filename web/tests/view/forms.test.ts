@@ -3,13 +3,14 @@ import { contactPatch, contactSquare, kContactCells } from "../../src/view/conta
 import { fieldOf, kFieldFloats } from "../../src/view/field";
 import { kHighlighted, kLocked, kSelected, markGenes } from "../../src/view/gene_marks";
 import { decodeMeshes, decodeModel } from "../../src/view/messages";
-import { readObj } from "../../src/view/obj";
+import { makeForm } from "../../src/view/form";
 import { Parts } from "../../src/view/parts";
 import { extentOf } from "../../src/view/part_picker";
 import { creases, kShapes, shapeFile, shapeOf, shapeTriangles } from "../../src/view/shapes";
+import { atOnce } from "../../src/view/slices";
 import { clipped, kStrokeFloats, Strokes } from "../../src/view/strokes";
 import { eyeOf, project } from "../../src/view/orbit";
-import { chunkBoxes, hitChunks, hitTriangles, type Triangles } from "../../src/view/rays";
+import { chunkBoxes, hitChunks, hitTriangles } from "../../src/view/rays";
 import { tubeArrays } from "../../src/view/tubes";
 import { meshMessage, modelMessage, treeMeshes, treeModel } from "./synthetic";
 
@@ -19,32 +20,9 @@ interface Drawn {
   attributes: { extra: { data: { array: Float32Array } } };
 }
 
-function obj(text: string): Triangles {
-  const steps = readObj(text);
-  for (;;) {
-    const step = steps.next();
-    if (step.done) return step.value;
-  }
-}
-
-describe("OBJ", () => {
-  it("reads polygons, slashes and indices from the end", () => {
-    const mesh = obj("# a square\nv 0 0 0\nv 1 0 0\nv 1 1 0\r\nv 0 1 0\nvt 0 0\nf 1/1 2/1/3 3//2 4\nf -1 -2 -3\ng x\n");
-    expect([...mesh.positions]).toEqual([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]);
-    expect([...mesh.indices]).toEqual([0, 1, 2, 0, 2, 3, 3, 2, 1]);
-  });
-
-  it("names the line that is wrong", () => {
-    expect(() => obj("v 0 0 0\nf 1 2 3")).toThrow(/line 2: a face names vertex 2 of 1/);
-    expect(() => obj("v 0 zero 0")).toThrow(/line 1: not three numbers/);
-    expect(() => obj("v 0 0 0\nf a b c")).toThrow(/line 2/);
-    expect(obj("").indices).toHaveLength(0);
-  });
-});
-
 describe("large meshes", () => {
   it("are hit as small ones are", () => {
-    const sphere = shapeTriangles("sphere"), boxes = chunkBoxes(sphere);
+    const sphere = shapeTriangles("sphere"), boxes = atOnce(chunkBoxes(sphere));
     expect(boxes.length / 6).toBe(Math.ceil(sphere.indices.length / 768));
     for (let i = 0; i < 40; ++i) {
       const origin = [2 * Math.sin(i), Math.cos(2 * i), 2 * Math.cos(i)] as const;
@@ -53,11 +31,16 @@ describe("large meshes", () => {
     }
   });
 
-  it("are read in slices", () => {
-    const steps = readObj("v 0 0 0\n".repeat(2000));
-    let slices = 0;
-    while (!steps.next().done) ++slices;
-    expect(slices).toBe(4);
+  it("are made ready in slices, as many more as they are larger", () => {
+    const slices = (triangles: number): number => {
+      const positions = Float32Array.from({ length: 9 * triangles }, (_, i) => Math.sin(i));
+      const steps = makeForm({ positions, normals: positions, indices: Uint32Array.from({ length: 3 * triangles }, (_, i) => i) });
+      let count = 1;
+      while (!steps.next().done) ++count;
+      return count;
+    };
+    for (const few of [4_000, 40_000]) expect(slices(4 * few)).toBeGreaterThan(3 * slices(few));
+    expect(slices(19_000)).toBeGreaterThan(60); // with creases
   });
 });
 
@@ -77,11 +60,11 @@ describe("shapes", () => {
   });
 
   it("has creases where faces meet, and open edges", () => {
-    expect(creases(shapeTriangles("box"))).toHaveLength(12 * 6);
-    expect(creases(shapeTriangles("cylinder"))).toHaveLength(2 * 48 * 6);
-    expect(creases(shapeTriangles("sphere"))).toHaveLength(0);
-    expect(creases({ positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]),
-      indices: new Uint32Array([0, 1, 2]) })).toHaveLength(18);
+    expect(atOnce(creases(shapeTriangles("box")))).toHaveLength(12 * 6);
+    expect(atOnce(creases(shapeTriangles("cylinder")))).toHaveLength(2 * 48 * 6);
+    expect(atOnce(creases(shapeTriangles("sphere")))).toHaveLength(0);
+    expect(atOnce(creases({ positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]),
+      indices: new Uint32Array([0, 1, 2]) }))).toHaveLength(18);
   });
 });
 
