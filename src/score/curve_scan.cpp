@@ -1,5 +1,5 @@
 #undef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL)  // see volume_kernel.cpp
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3 | HWY_AVX3_DL)  // see volume_kernel.cpp
 #define HWY_COMPILE_ALL_ATTAINABLE
 
 #undef HWY_TARGET_INCLUDE
