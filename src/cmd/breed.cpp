@@ -3,15 +3,18 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "cmd/attributes.h"
 #include "cmd/verbs.h"
 #include "io/mesh_import.h"
+#include "run/mesh_look.h"
 #include "studio/species_pack.h"
 
 namespace espalier {
 
 int breed_verb(const BreedOptions& options) {
   namespace fs = std::filesystem;
+  if (options.lods && options.lod) throw Error("--lod and --lods exclude each other");
   SpeciesRequest request;
   request.from = options.from;
   request.grammar = options.grammar;
@@ -21,7 +24,9 @@ int breed_verb(const BreedOptions& options) {
   request.settings.least_distance = options.least_distance;
   request.most_triangles = options.most_triangles;
   request.seed = options.seed;
-  request.format = options.format;
+  request.form.format = options.format;
+  request.form.detail = read_level_of_detail(options.joints, options.lod);
+  request.form.all_levels = options.lods;
   const std::string out =
       !options.out.empty() ? options.out
                            : (fs::path("out") / (fs::path(options.from).stem().stem().string() + "-species")).string();

@@ -254,13 +254,16 @@ void declare_breed(CLI::App& app, CommandLine& line) {
   verb->add_option("--from", o.from, "Derivation (or model, picture, run's folder), grammar (.esp) or scene (.toml)")
       ->required();
   verb->add_option("-n,--count", o.count, "How many, 1 to 1000 (20)")->check(CLI::Range(1, 1000));
-  verb->add_option("--max-triangles", o.most_triangles, "Of each model")
+  verb->add_option("--max-triangles", o.most_triangles, "Of each file")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
   verb->add_option("--strength", o.strength, "How far siblings stray, 0 to 1 (0.3)")->check(CLI::Range(0.0, 1.0));
   verb->add_option("--least-distance", o.least_distance, "Of the features of any two, 0 to 1 (0.01)")
       ->check(CLI::Range(0.0, 1.0));
   verb->add_option("--seed", o.seed, "Seed (1)")->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
   verb->add_option("--format", o.format, "glb, obj, ply or stl (glb)");
+  verb->add_option("--joints", o.joints, "smooth: what touches end to end becomes one tube; separate: as it is");
+  verb->add_option("--lod", o.lod, "Level of detail, 0 (finest) to 3, with one mesh per material");
+  verb->add_flag("--lods", o.lods, "All four levels, as NNN-lod0.glb to NNN-lod3.glb; --max-triangles is of lod0");
   declare_grammar(verb, o.grammar);
   declare_attributes(verb, o.attributes);
   declare_threads(verb, o.threads);

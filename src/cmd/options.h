@@ -48,6 +48,9 @@ struct BreedOptions {
   double strength = 0.3, least_distance = 0.01;
   std::uint64_t seed = 1;
   std::string format = "glb";
+  std::string joints;                 // "separate", "smooth"; empty: not given
+  std::optional<std::uint32_t> lod;
+  bool lods = false;                  // all levels, a file each
   std::vector<std::string> attributes;
   std::string out;  // empty: out/NAME-species
   int threads = 0;

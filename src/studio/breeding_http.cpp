@@ -9,6 +9,7 @@
 #include "studio/breeding_bench.h"
 #include "studio/breeding_file.h"
 #include "studio/breeding_replay.h"
+#include "studio/breeding_settings.h"
 #include "studio/export_model.h"
 #include "studio/species_zip.h"
 
@@ -59,12 +60,16 @@ HttpResponse species_file(Store& store, std::int64_t project, std::int64_t sessi
   if (most_triangles < 0) throw Error("the limit of triangles must be a number; 0 is none");
   BreedingBench bench([&](const std::string& hash) { return store.blob(project, hash); }, executor);
   const ShownModel shown = shown_model(store, bench, project, session, individual);
-  const auto seed = static_cast<std::uint64_t>(BreedingStore(store).open(project, session).seed);
-  const std::string stem = fmt::format("species-{}", individual);
-  return {
-      200, "application/zip",
-      species_zip(bench, executor, shown.derivation, static_cast<std::uint32_t>(count), most_triangles, seed, stem),
-      stem + ".zip"};
+  const BreedingHead head = BreedingStore(store).open(project, session);
+  SpeciesZipRequest request;
+  request.count = static_cast<std::uint32_t>(count);
+  request.settings = read_settings(head.settings);
+  const std::int64_t limit = request.settings.max_triangles.value_or(0);
+  if (limit == 0 || (most_triangles > 0 && most_triangles < limit)) request.settings.max_triangles = most_triangles;
+  request.locked = read_locked(head.locked);
+  request.seed = static_cast<std::uint64_t>(head.seed);
+  request.stem = fmt::format("species-{}", individual);
+  return {200, "application/zip", species_zip(bench, executor, shown.derivation, request), request.stem + ".zip"};
 }
 
 }  // namespace

@@ -4,21 +4,18 @@
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/version.h"
+#include "breed/appraiser.h"
 #include "breed/usual_viability.h"
-#include "io/file.h"
-#include "io/image.h"
+#include "model/expand.h"
+#include "model/surfaces.h"
 #include "run/derivation_file.h"
 #include "run/find_derivation.h"
-#include "run/input_files.h"
-#include "run/model_files.h"
+#include "run/mesh_look.h"
 #include "run/run_folder.h"
 #include "run/scene_limits.h"
 #include "run/scene_toml.h"
-#include "run/toml_value.h"
 
 namespace espalier {
 namespace {
@@ -60,155 +57,120 @@ std::string command_line(const SpeciesRequest& r, const std::string& from, const
   std::string line = fmt::format("espalier breed --from {}", from);
   if (!grammar.empty()) line += " --grammar " + grammar;
   line += fmt::format(" --count {} --seed {} --strength {} --least-distance {} --format {}", r.settings.count, r.seed,
-                      r.settings.strength, r.settings.least_distance, r.format);
+                      r.settings.strength, r.settings.least_distance, r.form.format);
+  if (r.form.detail) line += fmt::format(" --joints {}", name_of(r.form.detail->joints));
+  if (r.form.detail && !r.form.all_levels) line += fmt::format(" --lod {}", r.form.detail->level);
+  if (r.form.all_levels) line += " --lods";
   if (r.most_triangles) line += fmt::format(" --max-triangles {}", *r.most_triangles);
   for (const auto& [name, value] : attributes) line += fmt::format(" -D {}={}", name, value);
   return line + " --out OUT";
 }
 
-class Pack {
+/// Refuses what has too many triangles as its files are made, where these are not the grammar's own parts.
+class LevelAppraiser final : public Appraiser {
  public:
-  Pack(const SpeciesRequest& request, MeshSource& source, Executor& executor)
-      : request_(request),
-        stock_(read_stock(request)),
-        meshes_(load_meshes(stock_.grammar, source)),
-        executor_(executor) {
-    inputs_.add_grammar(stock_.grammar);
-    if (stock_.favourite) favourite_name_ = inputs_.add_start(find_derivation(request.from)).name;
-    find();
-    settings_ = fmt::format("# Bred by Espalier {}: {}\nespalier_breed = 1\ngrammar = {}\n", kVersion,
-                            summary(species_, request_.settings), quote_toml(inputs_.grammar_name()));
-    if (!favourite_name_.empty()) settings_ += fmt::format("from = {}\n", quote_toml(favourite_name_));
-    settings_ += fmt::format("seed = {}\ncount = {}\nstrength = {}\nleast_distance = {}\n", request_.seed,
-                             request_.settings.count, format_toml(request_.settings.strength),
-                             format_toml(request_.settings.least_distance));
-    if (request_.most_triangles) settings_ += fmt::format("most_triangles = {}\n", *request_.most_triangles);
-    settings_ += "\n[attributes]\n";
-    for (const auto& [name, value] : stock_.grammar.attributes) {
-      settings_ += fmt::format("{} = {}\n", quote_toml(name), quote_toml(value));
-    }
+  LevelAppraiser(Appraiser& others, const GeneratorGraph& graph, const MeshTable& meshes, const LevelOfDetail& detail,
+                 std::uint64_t most, Executor& executor)
+      : others_(others), graph_(graph), meshes_(meshes), detail_(detail), most_(most), executor_(executor) {
+    for (int i = 0; i < executor.workers(); ++i) workers_.push_back(std::make_unique<Worker>(graph));
   }
 
-  SpeciesReport report() const {
-    SpeciesReport report;
-    report.found = static_cast<std::uint32_t>(species_.siblings.size());
-    report.nearest = species_.nearest;
-    report.words = summary(species_, request_.settings);
-    for (const Appraisal& one : species_.appraisals) {
-      report.triangles = std::max(report.triangles, static_cast<std::uint64_t>(one.measures[Measure::triangles]));
-    }
-    return report;
+  std::vector<Appraisal> appraise(std::span<const Derivation* const> candidates) override {
+    std::vector<Appraisal> appraisals = others_.appraise(candidates);
+    executor_.for_each(candidates.size(), [&](std::size_t i, int which) {
+      if (!appraisals[i].viable) return;
+      auto& [expander, model] = *workers_[static_cast<std::size_t>(which)];
+      expander.expand(*candidates[i], ExpandTo::full, model);
+      const std::uint64_t triangles = most_triangles_at(model, meshes_, materials_of(graph_, model), detail_);
+      if (triangles <= most_) return;
+      appraisals[i].viable = false;
+      appraisals[i].reasons.push_back(describe_rejection(Measure::triangles, {.max = static_cast<double>(most_)},
+                                                         static_cast<double>(triangles)));
+    });
+    return appraisals;
   }
-
-  void write(const std::string& folder) {
-    write_file(folder + "/" + kSpeciesMarker, settings_);
-    inputs_.write(folder);
-    RenderSettings look;
-    look.width = request_.cell[0], look.height = request_.cell[1];
-    const std::vector<Mesh> no_ghosts;
-    ModelFiles files(*stock_.grammar.graph, meshes_, load_textures(stock_.grammar), no_ghosts, look, executor_);
-    std::vector<SheetCell> cells;
-    for (std::size_t i = 0; i < species_.siblings.size(); ++i) {
-      const Derivation& sibling = species_.siblings[i];
-      files.write(sibling, folder + "/" + name(i, ".derivation.json"), provenance(i));
-      files.write(sibling, folder + "/" + name(i, "." + request_.format), provenance(i));
-      cells.push_back({files.picture(sibling), fmt::format("{}  {} triangles", i + 1, triangles(i))});
-    }
-    const Picture sheet = contact_sheet(cells, fmt::format("{}: {} bred, seed {}", stock_.grammar.graph->name,
-                                                           cells.size(), request_.seed));
-    write_png(folder + "/species.png", sheet.width, sheet.height, sheet.rgb, provenance(0));
-    write_file(folder + "/species.json", index());
-  }
+  const std::vector<std::string>& feature_names() const override { return others_.feature_names(); }
+  bool has_targets() const override { return others_.has_targets(); }
 
  private:
-  void find() {
-    ModelAppraiser::Settings settings;
-    settings.viability = usual_viability(*stock_.grammar.graph, meshes_);
-    settings.viability.limits = stock_.limits;
-    settings.limits.most_parts = kMostPartsLookedAt;
-    if (request_.most_triangles) {
-      std::optional<double>& max = settings.viability.limits[Measure::triangles].max;
-      max = std::min(max.value_or(1e18), static_cast<double>(*request_.most_triangles));
-    }
-    ModelAppraiser appraiser(stock_.grammar.graph, meshes_, settings, nullptr, executor_);
-    BreedProblem problem;
-    problem.graph = stock_.grammar.graph;
-    problem.appraiser = &appraiser;
-    problem.seed = request_.seed;
-    species_ = find_species(problem, stock_.favourite, request_.settings);
-  }
+  struct Worker {
+    explicit Worker(const GeneratorGraph& graph) : expander(graph) {}
+    Expander expander;
+    Model model;
+  };
 
-  static std::string name(std::size_t i, const std::string& ending) { return fmt::format("{:03}{}", i + 1, ending); }
-  std::uint64_t triangles(std::size_t i) const {
-    return static_cast<std::uint64_t>(species_.appraisals[i].measures[Measure::triangles]);
-  }
-
-  Provenance provenance(std::size_t i) const {
-    Provenance p;
-    p.version = kVersion;
-    p.made_by = "breed";
-    p.seed = request_.seed;
-    p.index = i;
-    p.inputs = inputs_.hashes();
-    p.settings = settings_;
-    p.settings_folder = ".";
-    p.derivation = hash_text(species_.siblings[i]);
-    return p;
-  }
-
-  std::string index() const {
-    nlohmann::ordered_json models = nlohmann::ordered_json::array();
-    for (std::size_t i = 0; i < species_.siblings.size(); ++i) {
-      const Appraisal& one = species_.appraisals[i];
-      models.push_back({{"file", name(i, "." + request_.format)},
-                        {"derivation", name(i, ".derivation.json")},
-                        {"derivation_hash", hash_text(species_.siblings[i])},
-                        {"candidate", species_.drawn_as[i]},
-                        {"triangles", triangles(i)},
-                        {"height_m", one.measures[Measure::height]},
-                        {"spread_m", one.measures[Measure::spread]}});
-    }
-    const nlohmann::ordered_json index = {
-        {"espalier_species", 1},
-        {"version", kVersion},
-        {"grammar", inputs_.grammar_name()},
-        {"from", favourite_name_.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(favourite_name_)},
-        {"seed", request_.seed},
-        {"found", species_.siblings.size()},
-        {"asked", request_.settings.count},
-        {"words", summary(species_, request_.settings)},
-        {"least_distance_found", species_.nearest},
-        {"make_again", command_line(request_, favourite_name_.empty() ? inputs_.grammar_name() : favourite_name_,
-                                    favourite_name_.empty() ? "" : inputs_.grammar_name(), stock_.grammar.attributes)},
-        {"inputs", inputs_.hashes()},
-        {"models", models}};
-    return index.dump(1) + "\n";
-  }
-
-  SpeciesRequest request_;
-  Stock stock_;
-  MeshTable meshes_;
+  Appraiser& others_;
+  const GeneratorGraph& graph_;
+  const MeshTable& meshes_;
+  const LevelOfDetail detail_;
+  const std::uint64_t most_;
   Executor& executor_;
-  InputFiles inputs_;
-  std::string favourite_name_;  // in the folder; empty: bred from the grammar
-  std::string settings_;
-  Species species_;
+  std::vector<std::unique_ptr<Worker>> workers_;
 };
+
+/// The one that a limit of triangles is about; none: parts as the grammar makes them.
+std::optional<LevelOfDetail> finest_level(const SpeciesForm& form) {
+  if (!form.all_levels) return form.detail;
+  LevelOfDetail finest = form.detail.value_or(LevelOfDetail{});
+  finest.level = 0;
+  return finest;
+}
+
+Species find(const SpeciesRequest& request, const Stock& stock, const MeshTable& meshes, Executor& executor) {
+  const std::optional<LevelOfDetail> level = finest_level(request.form);
+  ModelAppraiser::Settings settings;
+  settings.viability = usual_viability(*stock.grammar.graph, meshes);
+  settings.viability.limits = stock.limits;
+  settings.limits.most_parts = kMostPartsLookedAt;
+  if (request.most_triangles && !level) {
+    std::optional<double>& max = settings.viability.limits[Measure::triangles].max;
+    max = std::min(max.value_or(1e18), static_cast<double>(*request.most_triangles));
+  }
+  ModelAppraiser appraiser(stock.grammar.graph, meshes, settings, nullptr, executor);
+  BreedProblem problem;
+  problem.graph = stock.grammar.graph;
+  problem.appraiser = &appraiser;
+  problem.seed = request.seed;
+  std::optional<LevelAppraiser> at_level;
+  if (request.most_triangles && level) {
+    at_level.emplace(appraiser, *stock.grammar.graph, meshes, *level, *request.most_triangles, executor);
+    problem.appraiser = &*at_level;
+  }
+  return find_species(problem, stock.favourite, request.settings);
+}
+
+std::string settings_of(const SpeciesRequest& request) {
+  std::string text;
+  if (request.most_triangles) text += fmt::format("most_triangles = {}\n", *request.most_triangles);
+  if (request.form.detail) text += to_toml(*request.form.detail);
+  if (request.form.all_levels) text += "all_levels = true\n";
+  return text;
+}
 
 }  // namespace
 
 SpeciesReport write_species(const SpeciesRequest& request, const std::string& out, MeshSource& source,
                             Executor& executor) {
   validate(request.settings);
-  const std::array<std::string_view, 4> formats = {"glb", "obj", "ply", "stl"};
-  if (std::find(formats.begin(), formats.end(), request.format) == formats.end()) {
-    throw Error(fmt::format("--format must be glb, obj, ply or stl, got {}", quote_toml(request.format)));
-  }
+  validate(request.form);
   RunFolder folder(out, kSpeciesMarker);
-  Pack pack(request, source, executor);
-  const SpeciesReport report = pack.report();
+  const Stock stock = read_stock(request);
+  const MeshTable meshes = load_meshes(stock.grammar, source);
+  const TextureTable textures = load_textures(stock.grammar);
+  InputFiles inputs;
+  inputs.add_grammar(stock.grammar);
+  const std::string favourite = stock.favourite ? inputs.add_start(find_derivation(request.from)).name : "";
+  const Species species = find(request, stock, meshes, executor);
+  SpeciesReport report;
+  report.found = static_cast<std::uint32_t>(species.siblings.size());
+  report.nearest = species.nearest;
+  report.words = summary(species, request.settings);
   if (report.found == 0) return report;
-  pack.write(folder.staging());
+  const std::string& grammar = inputs.grammar_name();
+  const std::string again = favourite.empty() ? command_line(request, grammar, "", stock.grammar.attributes)
+                                              : command_line(request, favourite, grammar, stock.grammar.attributes);
+  const SpeciesOrigin origin{stock.grammar, meshes, textures, inputs, favourite, again, settings_of(request), request.seed};
+  report.triangles = write_species_files(origin, species, request.settings, request.form, folder.staging(), executor);
   folder.commit();
   return report;
 }

@@ -2,7 +2,6 @@
 // SpeciesPack: siblings of a favourite as a folder of model files with an index and a contact sheet. For the command
 // line and for the breeding room.
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -11,7 +10,7 @@
 #include "base/executor.h"
 #include "breed/species.h"
 #include "model/mesh_source.h"
-#include "score/limit.h"
+#include "studio/species_files.h"
 
 namespace espalier {
 
@@ -22,24 +21,20 @@ struct SpeciesRequest {
   std::string grammar;                            // of a derivation; empty: the copy in the folder of its run
   std::map<std::string, std::string> attributes;  // as the language writes them
   SpeciesSettings settings;
-  std::optional<std::uint64_t> most_triangles;    // of a model, as its GLB file holds them
+  std::optional<std::uint64_t> most_triangles;    // of a file; of the finest where there is one per level
   std::uint64_t seed = 1;
-  std::string format = "glb";                     // glb, obj, ply or stl
-  std::array<std::uint32_t, 2> cell = {240, 240}; // of a model on the sheet
+  SpeciesForm form;
 };
 
 struct SpeciesReport {
   std::uint32_t found = 0;
   double nearest = 0;       // least distance of any two
-  std::uint64_t triangles = 0;  // of the largest
+  std::uint64_t triangles = 0;  // of the largest file
   std::string words;        // how many were found, and why not more
 };
 
-inline constexpr const char* kSpeciesMarker = "breed.toml";
-
-/// Writes NNN.FORMAT and NNN.derivation.json for each, species.json, species.png, breed.toml and inputs/ into a new
-/// folder `out` (see RunFolder), also where fewer were found than asked for; nothing where none was. Of a scene the
-/// hard limits count too, not its targets. Throws Error.
+/// Writes the files (write_species_files) into a new folder `out` (see RunFolder), also where fewer were found than
+/// asked for; nothing where none was. Of a scene the hard limits count too, not its targets. Throws Error.
 SpeciesReport write_species(const SpeciesRequest& request, const std::string& out, MeshSource& source,
                             Executor& executor);
 

@@ -1,49 +1,66 @@
 #include "studio/species_zip.h"
 
+#include <algorithm>
+#include <filesystem>
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "breed/species.h"
+#include "derivation/encode.h"
 #include "io/file.h"
 #include "run/model_files.h"
 #include "run/temporary_folder.h"
-#include "studio/breeding_settings.h"
-#include "studio/export_model.h"
+#include "run/toml_value.h"
+#include "studio/species_files.h"
 #include "studio/zip.h"
 
 namespace espalier::studio {
+namespace {
 
-std::string species_zip(BreedingBench& bench, Executor& executor, const Derivation& favourite, std::uint32_t count,
-                        std::int64_t most_triangles, std::uint64_t seed, const std::string& stem) {
-  const api::RoomSettings limits = complete(api::RoomSettings{.max_triangles = most_triangles});
-  const BreedProblem problem = bench.problem(limits, seed, {});
-  SpeciesSettings settings;
-  settings.count = count;
-  const Species species = find_species(problem, favourite, settings);
-  const std::string words = summary(species, settings);
-  if (species.siblings.empty()) throw Error(words);
-  const Setup& setup = *bench.setup();
-  const TemporaryFolder folder;
-  const std::vector<Mesh> no_ghosts;
-  ModelFiles files(setup.graph(), setup.meshes, setup.textures, no_ghosts, {}, executor);
-  ZipWriter zip;
-  nlohmann::ordered_json index = {
-      {"espalier_species", 1}, {"words", words}, {"seed", seed}, {"models", nlohmann::ordered_json::array()}};
-  for (std::size_t i = 0; i < species.siblings.size(); ++i) {
-    ShownModel shown;
-    shown.setup = bench.setup();
-    shown.derivation = species.siblings[i];
-    const std::string name = fmt::format("{:03}.glb", i + 1), path = folder.file(name);
-    files.write(shown.derivation, path, provenance_of(shown));
-    zip.add(stem + "/" + name, read_file(path));
-    const PerMeasure<double>& measures = species.appraisals[i].measures;
-    index["models"].push_back({{"file", name},
-                               {"triangles", measures[Measure::triangles]},
-                               {"height", measures[Measure::height]},
-                               {"spread", measures[Measure::spread]}});
+namespace fs = std::filesystem;
+
+/// With what a session holds its relatives together, for people: no command takes locks of draws or targets.
+std::string settings_of(const SpeciesZipRequest& request) {
+  std::string text;
+  const auto limit = [&](const char* name, double most) {
+    if (most > 0) text += fmt::format("{} = {}\n", name, most);
+  };
+  limit("most_triangles", static_cast<double>(request.settings.max_triangles.value_or(0)));
+  limit("most_height_m", request.settings.max_height.value_or(0));
+  limit("most_spread_m", request.settings.max_spread.value_or(0));
+  std::string locked;
+  for (const api::DrawPlace& place : request.locked) {
+    locked += (locked.empty() ? "" : ", ") + quote_toml(fmt::format("{}: draw {}", place.path, place.index));
   }
-  zip.add(stem + "/species.json", index.dump(1) + "\n");
+  if (!locked.empty()) text += fmt::format("locked = [{}]\n", locked);
+  return text;
+}
+
+}  // namespace
+
+std::string species_zip(BreedingBench& bench, Executor& executor, const Derivation& favourite,
+                        const SpeciesZipRequest& request) {
+  const BreedProblem problem = bench.problem(request.settings, request.seed, request.locked);
+  SpeciesSettings settings;
+  settings.count = request.count;
+  const Species species = find_species(problem, favourite, settings);
+  if (species.siblings.empty()) throw Error(summary(species, settings));
+  const Setup& setup = *bench.setup();
+  const TemporaryFolder scratch;
+  const std::string start = scratch.file("favourite.derivation.json"), pack = scratch.file("pack");
+  write_file(start, encode(setup.graph(), favourite));
+  InputFiles inputs = setup.inputs;
+  const std::string name = inputs.add_start(start).name;
+  fs::create_directory(pack);
+  write_species_files({setup.grammar, setup.meshes, setup.textures, inputs, name, "", settings_of(request), request.seed},
+                      species, settings, {}, pack, executor);
+  std::vector<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(pack)) {
+    if (entry.is_regular_file()) files.push_back(fs::relative(entry.path(), pack).generic_string());
+  }
+  std::sort(files.begin(), files.end());
+  ZipWriter zip;
+  for (const std::string& file : files) zip.add(request.stem + "/" + file, read_file((fs::path(pack) / file).string()));
   return zip.finish();
 }
 

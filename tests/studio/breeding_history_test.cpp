@@ -240,7 +240,10 @@ TEST_F(BreedingTest, ASpeciesPackIsManyFilesWithinALimit) {
   const Answer zip = pack("5/" + std::to_string(triangles));
   ASSERT_EQ(zip.status, 200) << zip.body.substr(0, 200);
   EXPECT_EQ(zip.body.substr(0, 2), "PK");
-  for (const char* name : {"/001.glb", "/005.glb", "/species.json"}) EXPECT_THAT(zip.body, HasSubstr(name));
+  for (const char* name : {"/001.glb", "/005.glb", "/005.derivation.json", "/species.json", "/species.png",
+                           "/inputs/grammar.esp", "/inputs/start/favourite.derivation.json"}) {
+    EXPECT_NE(zip.body.find(name), std::string::npos) << name;
+  }
   EXPECT_EQ(zip.body.find("/006.glb"), std::string::npos);
   EXPECT_EQ(pack("5/" + std::to_string(triangles)).body, zip.body);
   EXPECT_EQ(pack("5/1").status, 400);

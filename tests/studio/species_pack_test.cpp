@@ -26,7 +26,7 @@ SpeciesRequest request_for(const std::string& from, std::uint32_t count) {
   request.from = from;
   request.settings.count = count;
   request.most_triangles = 4000;
-  request.cell = {64, 64};
+  request.form.cell = {64, 64};
   return request;
 }
 
@@ -71,6 +71,37 @@ TEST(SpeciesPack, SiblingsOfAModelAreMadeAgainFromTheirFolder) {
   EXPECT_EQ(read_tree(folder / "out"), read_tree(folder / "again"));
 }
 
+TEST(SpeciesPack, LevelsOfDetailAreFilesEachAndTheLimitIsOfTheFinest) {
+  const TemporaryFolder folder;
+  AssimpMeshSource source;
+  const auto executor = make_serial_executor();
+  SpeciesRequest request = request_for(kGrammar, 3);
+  request.most_triangles = 3000;
+  request.form.detail = LevelOfDetail{0, Joints::smooth};
+  request.form.all_levels = true;
+  const SpeciesReport report = write_species(request, folder / "out", source, *executor);
+  ASSERT_EQ(report.found, 3u);
+  EXPECT_LE(report.triangles, 3000u);
+  EXPECT_GT(report.triangles, 0u);
+  const auto index = nlohmann::json::parse(read_text(folder / "out/species.json"));
+  EXPECT_THAT(index["make_again"].get<std::string>(), HasSubstr("--joints smooth --lods --max-triangles 3000 "));
+  for (const auto& model : index["models"]) {
+    ASSERT_EQ(model["levels"].size(), 4u);
+    EXPECT_EQ(model["file"], model["levels"][0]["file"]);
+    for (std::size_t level = 0; level < 4; ++level) {
+      const std::string file = model["levels"][level]["file"];
+      EXPECT_TRUE(std::filesystem::exists(folder / ("out/" + file))) << file;
+      if (level == 0) continue;
+      EXPECT_LT(model["levels"][level]["triangles"], model["levels"][level - 1]["triangles"]) << file;
+    }
+  }
+  // The limit is of the level that is written, not of the model as the grammar makes it.
+  request.form.detail->level = 2;
+  request.form.all_levels = false;
+  request.most_triangles = 1;
+  EXPECT_THAT(write_species(request, folder / "none", source, *executor).words, HasSubstr("refused: triangles are above max ("));
+}
+
 TEST(SpeciesPack, WritesNothingWhereNothingIsFoundAndReplacesOnlyItsOwn) {
   const TemporaryFolder folder;
   AssimpMeshSource source;
@@ -84,7 +115,7 @@ TEST(SpeciesPack, WritesNothingWhereNothingIsFoundAndReplacesOnlyItsOwn) {
   testing::write_text(folder / "mine/letter.txt", "dear");
   EXPECT_THROW(write_species(request_for(kGrammar, 2), folder / "mine", source, *executor), Error);
   EXPECT_EQ(read_tree(folder / "mine").size(), 1u);
-  request.format = "max";
+  request.form.format = "max";
   EXPECT_THROW(write_species(request, folder / "out", source, *executor), Error);
 }
 
