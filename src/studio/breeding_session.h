@@ -45,6 +45,7 @@ class BreedingSession {
   const std::vector<RoomIndividual>& individuals() const { return individuals_; }
   std::vector<std::string> notes() const { return notes_of_ == head_.generation ? notes_ : std::vector<std::string>(); }
   std::vector<GenerationSummary> generations() const { return store_.generations(number()); }
+  std::vector<BreedingComparison> comparisons() const { return store_.comparisons(number()); }
   std::vector<BredRow> lineage() const { return store_.individuals(number()); }
 
   /// The bench has another state.

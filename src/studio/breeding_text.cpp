@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -89,13 +90,20 @@ api::Breeding breeding_text(const BreedingSession& session, const std::string& p
     text.generations.push_back(std::move(info));
   }
   const api::Taste* best = nullptr;
+  std::set<std::int64_t> shown;
   for (const RoomIndividual& one : session.individuals()) {
+    shown.insert(one.row.id);
     const auto taste = session.forecasts().find(one.row.id);
     const api::Taste* const found = taste == session.forecasts().end() ? nullptr : &taste->second;
     text.individuals.push_back(individual_text(one, found));
     if (found && (!best || found->mean > best->mean)) best = found;
   }
   if (best && !best->why.empty()) text.taste_why = best->why;
+  std::vector<api::Comparison> compared;
+  for (const BreedingComparison& one : session.comparisons()) {
+    if (shown.count(one.better) && shown.count(one.worse)) compared.push_back({one.better, one.worse});
+  }
+  if (!compared.empty()) text.compared = std::move(compared);
   text.undo = head.undo;
   text.redo = head.redo;
   if (!busy.empty()) text.busy = busy;

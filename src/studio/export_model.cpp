@@ -10,6 +10,8 @@
 #include "base/hash.h"
 #include "base/version.h"
 #include "io/file.h"
+#include "model/level_of_detail.h"
+#include "run/mesh_look.h"
 #include "run/model_files.h"
 #include "run/results.h"
 #include "run/scene_toml.h"
@@ -64,13 +66,28 @@ std::string scene_folder(const ShownModel& shown, const std::string& stem) {
   return zip.finish();
 }
 
-std::string obj_folder(const TemporaryFolder& folder, const std::string& stem) {
+std::string zip_of(const TemporaryFolder& folder, const std::string& stem) {
   ZipWriter zip;
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder.file(""))) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) zip.add(stem + "/" + file.filename().string(), read_file(file.string()));
   return zip.finish();
+}
+
+/// Every level of detail as a file, and how many triangles each has.
+std::string levels_folder(const ShownModel& shown, ModelFiles& files, const TemporaryFolder& folder,
+                          const std::string& stem) {
+  std::string table = "file,triangles\n";
+  LevelOfDetail detail{0, Joints::smooth};
+  for (; detail.level < LevelOfDetail::kCount; ++detail.level) {
+    const std::string name = fmt::format("{}-lod{}.glb", stem, detail.level);
+    Provenance provenance = provenance_of(shown);
+    provenance.mesh = to_toml(detail);
+    table += fmt::format("{},{}\n", name, files.write(shown.derivation, folder.file(name), provenance));
+  }
+  write_file(folder.file("triangles.csv"), table);
+  return zip_of(folder, stem);
 }
 
 }  // namespace
@@ -98,8 +115,9 @@ Provenance provenance_of(const ShownModel& shown) {
 HttpResponse export_model(const ShownModel& shown, const std::string& format, const std::string& name) {
   const std::string stem = file_stem(name);
   if (format == "zip") return {200, "application/zip", scene_folder(shown, stem), stem + ".zip"};
-  const bool known = format == "glb" || format == "obj" || format == "ply" || format == "stl" || format == "png";
-  if (!known) throw Error("models are exported as glb, obj, ply, stl or png");
+  const bool known = format == "glb" || format == "lods" || format == "obj" || format == "ply" || format == "stl" ||
+                     format == "png";
+  if (!known) throw Error("models are exported as glb, lods, obj, ply, stl, png or zip");
   const Setup& setup = *shown.setup;
   const TemporaryFolder folder;
   const std::unique_ptr<Executor> executor = make_serial_executor();
@@ -108,9 +126,10 @@ HttpResponse export_model(const ShownModel& shown, const std::string& format, co
   look.azimuth_deg = static_cast<float>(setup.scene.output.azimuth_deg);
   look.elevation_deg = static_cast<float>(setup.scene.output.elevation_deg);
   ModelFiles files(setup.graph(), setup.meshes, setup.textures, no_ghosts, look, *executor);
+  if (format == "lods") return {200, "application/zip", levels_folder(shown, files, folder, stem), stem + "-lods.zip"};
   const std::string file = stem + "." + format;
   files.write(shown.derivation, folder.file(file), provenance_of(shown));
-  if (format == "obj") return {200, "application/zip", obj_folder(folder, stem), stem + "-obj.zip"};
+  if (format == "obj") return {200, "application/zip", zip_of(folder, stem), stem + "-obj.zip"};
   const char* const type = format == "glb" ? "model/gltf-binary" : format == "png" ? "image/png" : "application/octet-stream";
   return {200, type, read_file(folder.file(file)), file};
 }

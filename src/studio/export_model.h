@@ -9,7 +9,8 @@
 
 namespace espalier::studio {
 
-/// `format`: glb, ply, stl, png; obj: a zip with materials and textures; zip: the scene folder. `name`: of the project,
+/// `format`: glb, ply, stl, png; obj: a zip with materials and textures; lods: a zip with the four levels of detail as
+/// GLB, with smooth joints, and their triangles; zip: the scene folder. `name`: of the project,
 /// for the file's name. Throws Error.
 HttpResponse export_model(const ShownModel& shown, const std::string& format, const std::string& name);
 

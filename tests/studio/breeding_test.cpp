@@ -93,6 +93,7 @@ TEST_F(BreedingTest, EverythingIsUndoneAndDoneAgain) {
   EXPECT_EQ(page.ask("compare", {{"better", first[2]}, {"worse", first[3]}}), "");
   EXPECT_EQ(page.individual(first[2])["rating"], 1);
   EXPECT_EQ(page.individual(first[3])["rating"], -1);
+  EXPECT_EQ(page.breeding()["compared"], json::array({{{"better", first[2]}, {"worse", first[3]}}}));
   EXPECT_EQ(page.ask("set_breeding", {{"settings", {{"strength", 0.9}, {"population", 9}}}}), "");
   EXPECT_EQ(page.breeding()["settings"]["strength"], 0.9);
   EXPECT_EQ(page.ask("lock_draws", {{"draws", {{{"path", "Tree"}, {"index", 3}}}}, {"locked", true}}), "");

@@ -15,6 +15,7 @@
 #include "studio/project_file.h"
 #include "studio/scene_json.h"
 #include "studio/studio_fixture.h"
+#include "studio/zip_reader.h"
 
 namespace espalier::studio {
 namespace {
@@ -502,6 +503,13 @@ TEST_F(StudioTest, ExportsAreRunAndReproduced) {
   EXPECT_GT(http("GET " + base + "stl").body.size(), 84u);
   EXPECT_EQ(http("GET " + base + "obj").body.substr(0, 4), "PK\x03\x04");
   EXPECT_EQ(http("GET " + base + "exe").status, 400);
+  const std::map<std::string, std::string> levels = read_zip(http("GET " + base + "lods").body);
+  ASSERT_EQ(levels.size(), 5u);
+  for (int level = 1; level < 4; ++level) {
+    const auto file = [&](int of) { return levels.at("my-tree/my-tree-lod" + std::to_string(of) + ".glb"); };
+    EXPECT_LT(file(level).size(), file(level - 1).size()) << level;
+  }
+  EXPECT_THAT(levels.at("my-tree/triangles.csv"), testing::MatchesRegex("file,triangles\n(my-tree-lod[0-3].glb,[0-9]+\n)+"));
   const Answer zip = http("GET " + base + "zip");
   EXPECT_THAT(zip.head, HasSubstr("filename=\"my-tree.zip\""));
   write_file(folder_.file("scene.zip"), zip.body);

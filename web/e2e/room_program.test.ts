@@ -24,12 +24,17 @@ afterEach(async () => {
 const cell = (id: number) => page.locator(`[data-individual="${id}"]`);
 const generation = (number: number) => page.getByRole("heading", { name: `Generation ${number}`, exact: true }).waitFor();
 
-async function begin(sample: string, classic = false): Promise<void> {
+interface Beginning {
+  classic?: boolean;
+  mode?: string;
+}
+async function begin(sample: string, { classic, mode }: Beginning = {}): Promise<void> {
   await page.getByRole("dialog", { name: "Projects" }).locator(".samples").getByText(sample, { exact: true }).click();
   await page.locator(".project-button", { hasText: sample }).waitFor();
   await page.getByText(/\d+ parts/).waitFor();
   await page.getByRole("button", { name: "Breed", exact: true }).click();
-  if (classic) await page.getByRole("radio", { name: /GenTree classic/ }).check();
+  if (classic === true) await page.getByRole("radio", { name: /GenTree classic/ }).check();
+  if (mode !== undefined) await page.getByLabel("You may").selectOption(mode);
   await page.getByRole("button", { name: "Start breeding" }).click();
   await generation(1);
 }
@@ -88,11 +93,60 @@ test("a rating is there again after kill -9, and the page comes back into its se
 });
 
 test("GenTree classic breeds twenty", async () => {
-  await begin("Gentree", true);
+  await begin("Gentree", { classic: true });
   expect(await page.getByRole("gridcell").count()).toBe(20);
   await page.keyboard.press("+");
   await page.keyboard.press("n");
   await generation(2);
   expect(await page.getByRole("gridcell").count()).toBe(20);
   expect(complaints).toEqual([]);
+});
+
+// Section 4.3 of GenTree's paper: who may do what. Whatever it is, the next generation comes.
+for (const [mode, mayRate, mayEdit] of [["rate_and_edit", true, true], ["rate", true, false], ["edit", false, true], ["neither", false, false]] as const) {
+  test(`GenTree classic in the mode ${mode}`, async () => {
+    await begin("Gentree", { classic: true, mode });
+    await cell(2).focus();
+    await page.keyboard.press("+");
+    const rated = cell(2).and(page.locator("[aria-label*='+1']"));
+    if (mayRate) await rated.waitFor();
+    else await page.getByText("bred without ratings").first().waitFor();
+    expect(await rated.count()).toBe(mayRate ? 1 : 0);
+    const slider = page.getByRole("slider", { name: "taper" }).first();
+    const edited = page.getByRole("gridcell", { name: /edited by hand/ });
+    expect(await slider.isDisabled()).toBe(!mayEdit);
+    if (mayEdit) {
+      await slider.focus();
+      await page.keyboard.press("Home");
+      await edited.waitFor();
+    }
+    expect(await edited.count()).toBe(mayEdit ? 1 : 0);
+    await cell(2).focus();
+    await page.keyboard.press("n");
+    await generation(2);
+    expect(await page.getByRole("gridcell").count()).toBe(20);
+    expect(complaints).toEqual([]);
+  });
+}
+
+test("kill -9 while a generation is bred loses no rating", async () => {
+  await begin("Gentree");
+  for (const id of [1, 3, 4]) await cell(id).getByRole("button", { name: "a point more" }).click();
+  for (const id of [1, 3, 4]) await cell(id).and(page.locator("[aria-label*='+1']")).waitFor();
+  await cell(1).focus();
+  await page.keyboard.press("n");
+  const { port } = program;
+  await program.kill();
+  await program.start(port);
+  await page.locator(".connection").waitFor({ state: "detached" });
+  await page.reload();
+  const shown = page.getByRole("gridcell");
+  await shown.first().waitFor();
+  // The generation is there or it is not; either way one can go back to the first, with all that was said of it.
+  await page.getByRole("button", { name: /^Generation 1:/ }).click();
+  await generation(1);
+  for (const id of [1, 3, 4]) await cell(id).and(page.locator("[aria-label*='+1']")).waitFor();
+  await cell(1).focus();
+  await page.keyboard.press("n");
+  await page.getByRole("heading", { name: /^Generation [23]$/ }).waitFor();
 });

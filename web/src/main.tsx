@@ -5,6 +5,7 @@ import { placeOf, projectOf, sessionOf, socketAddress, tokenOf } from "./connect
 import type { Socket } from "./connection/connection";
 import { App } from "./page/app";
 import { keptPreferences } from "./store/preferences";
+import { currentView } from "./shell/view_access";
 import { Studio } from "./store/studio";
 import "./styles/theme.css";
 import "./styles/controls.css";
@@ -46,5 +47,9 @@ effect(() => {
 studio.watch();
 render(<App studio={studio} />, document.getElementById("studio")!);
 studio.connection.connect();
+// What is painted goes to the server when the tool is left; before that the browser asks whether to stay.
+window.addEventListener("beforeunload", (event) => {
+  if (currentView.value?.painting === true || studio.hasUnsaved) event.preventDefault();
+});
 // What was typed a moment ago is not lost with the page.
 window.addEventListener("pagehide", () => studio.edits.flush());

@@ -2,7 +2,7 @@
 import { batch } from "@preact/signals";
 import type { Bred, Breeding, Breedings, IndividualGenes, Lineage, Message } from "../api";
 import { decodeIndividual, isRoomTable, kPreview, type IndividualMessage } from "./individual_message";
-import { nextPair } from "./rating";
+import { nextPair, pairKey } from "./rating";
 import { forgetSession, type IndividualModel, type RoomState } from "./room_state";
 
 export type RoomMessage = Breedings | Breeding | Bred | IndividualGenes | Lineage;
@@ -62,6 +62,9 @@ function applyBreeding(state: RoomState, message: Breeding): void {
     state.meshes.value = meshes;
   }
   state.breeding.value = message;
+  // What was asked before the page was loaded anew, or on another page, is asked here neither.
+  const compared = (message.compared ?? []).map(({ better, worse }) => pairKey(better, worse));
+  if (compared.some((key) => !state.asked.value.has(key))) state.asked.value = new Set([...state.asked.value, ...compared]);
   const here = new Set(message.individuals.map((one) => one.id));
   const moved = before?.generation !== message.generation || before.session.id !== message.session.id;
   if (moved) {

@@ -36,7 +36,7 @@ export function newRoomState() {
     tab: signal<RoomTab>("individual"),
     blend: signal<BlendPlan>({ parents: [], weights: [] }),
     copied: signal<CopiedGenes | null>(null),
-    /** Pairs that were compared in this session of the page. */
+    /** Pairs that were compared, or passed over on this page. */
     asked: signal<ReadonlySet<string>>(new Set()),
     /** The start screen, though a session is open. */
     choosing: signal(false),

@@ -1,6 +1,6 @@
 // What goes over plain HTTP: files to and from a project (docs/studio-protocol.md).
 
-export type ExportFormat = "glb" | "obj" | "ply" | "stl" | "png" | "zip" | "espalier";
+export type ExportFormat = "glb" | "lods" | "obj" | "ply" | "stl" | "png" | "zip" | "espalier";
 
 export type IndividualFormat = Exclude<ExportFormat, "espalier">;
 

@@ -1,12 +1,13 @@
 import type { ComponentChildren } from "preact";
 import { useId } from "preact/hooks";
+import { resetKey } from "./reset_key";
 
 export function CheckField({ label, value, title, standard, onChange, onReset }: {
   label: string; value: boolean; title?: string | undefined; standard?: boolean; onChange(value: boolean): void; onReset?: () => void;
 }) {
   const id = useId();
   return (
-    <div class={`row${standard ? " standard" : ""}`} title={title}>
+    <div class={`row${standard ? " standard" : ""}`} title={title} onKeyDown={resetKey(onReset)}>
       <label for={id} onDblClick={onReset}>{label}</label>
       <span class="row-end row-left">
         <input type="checkbox" id={id} checked={value} onChange={(event) => onChange(event.currentTarget.checked)} />
@@ -21,7 +22,7 @@ export function ChoiceField<T extends string>({ label, value, choices, names, ti
 }) {
   const id = useId();
   return (
-    <div class={`row${standard ? " standard" : ""}`} title={title}>
+    <div class={`row${standard ? " standard" : ""}`} title={title} onKeyDown={resetKey(onReset)}>
       <label for={id} onDblClick={onReset}>{label}</label>
       <span class="row-end">
         <select id={id} value={value} onChange={(event) => onChange(event.currentTarget.value as T)}>

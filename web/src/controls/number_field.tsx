@@ -1,6 +1,7 @@
 import { useId, useRef, useState } from "preact/hooks";
 import { useGesture } from "./gesture";
 import { clampTo, readNumber, showNumber, stepFor, tidy } from "./number";
+import { resetKey } from "./reset_key";
 
 export interface NumberBoxProps {
   label: string;
@@ -97,11 +98,11 @@ function plain(limit: number | undefined): number | undefined {
   return limit !== undefined && /^-?\d+(\.\d+)?$/.test(String(limit)) ? limit : undefined;
 }
 
-/** A row: its name, and the number. A double click on the name takes the default. */
+/** A row: its name, and the number. A double click on the name takes the default, Alt+Backspace too. */
 export function NumberField(props: NumberBoxProps & { unit?: string; title?: string; onReset?: () => void }) {
   const id = useId();
   return (
-    <div class="row" title={props.title}>
+    <div class="row" title={props.title} onKeyDown={resetKey(props.onReset)}>
       <label for={id} onDblClick={props.onReset}>{props.label}</label>
       <span class="row-end">
         <NumberBox {...props} id={id} />
@@ -125,7 +126,7 @@ export function VectorField({ label, names, value, onChange, min, max, step, sta
   onReset?: () => void;
 }) {
   return (
-    <div class="row" role="group" aria-label={label} title={title}>
+    <div class="row" role="group" aria-label={label} title={title} onKeyDown={resetKey(onReset)}>
       <span class="row-name" onDblClick={onReset}>{label}</span>
       <span class="row-end row-vector">
         {value.map((number, i) => (

@@ -2,6 +2,7 @@ import { useId } from "preact/hooks";
 import { useGesture } from "./gesture";
 import { fromLog, toLog } from "./number";
 import { NumberBox } from "./number_field";
+import { resetKey } from "./reset_key";
 
 export interface SliderProps {
   label: string;
@@ -28,7 +29,7 @@ export function Slider(props: SliderProps) {
   const gesture = useGesture(label);
   const place = logarithmic ? toLog(Math.min(max, Math.max(min, value)), min, max) : value;
   return (
-    <div class={`row row-slider${props.standard ? " standard" : ""}`} title={props.title}>
+    <div class={`row row-slider${props.standard ? " standard" : ""}`} title={props.title} onKeyDown={resetKey(onReset)}>
       <label for={id} onDblClick={onReset}>{label}</label>
       <input
         type="range"

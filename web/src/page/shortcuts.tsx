@@ -82,6 +82,16 @@ export const SHORTCUTS: readonly Shortcut[] = [
   toggle("w", "field", "Field of directions"),
   toggle("t", "targets", "Targets"),
   toggle("h", "reach", "Where the rule under the cursor can reach"),
+  // What the view itself understands while it has the focus: see view/keys.ts.
+  { key: "Tab", words: "The next curve, point or volume; with Shift the one before", group: "In the view" },
+  { key: "Arrows", words: "Turn the camera, or move what is selected", group: "In the view" },
+  { key: "Arrows", shift: true, words: "Shift the view, or move what is selected tenfold", group: "In the view" },
+  { key: "PageUp, PageDown", words: "Move what is selected away or nearer", group: "In the view" },
+  { key: "+, -", words: "Nearer, farther", group: "In the view" },
+  { key: ", .", words: "The part before, the next part; of a volume: smaller, larger", group: "In the view" },
+  { key: "Insert, N", words: "Add a curve or a volume, as the tool says", group: "In the view" },
+  { key: "X, Y, Z", words: "A volume longer along an axis; with Shift shorter", group: "In the view" },
+  { key: "R", words: "Turn a volume; with Shift the other way", group: "In the view" },
   { key: " ", words: "Start or stop the search", group: "Search", run: (studio) => studio.searching.toggle() },
   { key: "k", words: "Keep the model as a favourite", group: "Search", run: (studio) => void keepFavourite(studio) },
   { key: "l", words: "Lock or free the selected gene", group: "Search", run: (studio) => {
@@ -195,6 +205,7 @@ export function ShortcutsDialog({ onClose }: { onClose(): void }) {
             <div><dt><kbd>↑</kbd><kbd>↓</kbd></dt><dd>A step; with Shift ten, with Alt a tenth</dd></div>
             <div><dt>Drag</dt><dd>Sideways over a number changes it</dd></div>
             <div><dt>Double click</dt><dd>On a name takes the default</dd></div>
+            <div><dt><kbd>Alt</kbd><kbd>Backspace</kbd></dt><dd>Takes the default, too</dd></div>
           </dl>
         </section>
       </div>

@@ -1,5 +1,5 @@
 // What a person can do, and the state that it changes. One history for all: undo and redo are the server's.
-import { batch, computed, effect, type Signal } from "@preact/signals";
+import { batch, computed, effect, untracked, type Signal } from "@preact/signals";
 import type { Camera, Curve, Document, Message, Scene } from "../api";
 import { Connection, RequestFailed, type Ask, type Socket, type Status } from "../connection/connection";
 import { Files, freeName } from "../connection/files";
@@ -44,8 +44,15 @@ const kNoticeMilliseconds = 5000;
 /** Of notices that something can be done about. */
 const kOfferMilliseconds = 15000;
 
+interface Painting {
+  project: number;
+  image: Blob;
+  camera: Camera;
+}
+
 export class Studio implements ViewHost {
   readonly state = newState();
+  private unsaved: Painting[] = [];
   readonly connection: Connection;
   readonly edits: EditQueue;
   readonly files: Files;
@@ -279,12 +286,29 @@ export class Studio implements ViewHost {
   }
 
   painted(image: Blob, camera: Camera): void {
-    void this.addPainted(image, camera);
+    const project = this.document.value?.project.id;
+    if (project !== undefined) void this.addPainted({ project, image, camera });
   }
 
-  private async addPainted(image: Blob, camera: Camera): Promise<void> {
-    const file = await this.addFile("painted.png", image);
-    if (file === null) return;
+  /** Whether something that was painted waits for the server. */
+  get hasUnsaved(): boolean {
+    return this.unsaved.length > 0;
+  }
+
+  /** What could not be sent is sent when the server is back, in the project that it was painted in. */
+  private sendUnsaved(project: number): void {
+    const mine = this.unsaved.filter((one) => one.project === project);
+    this.unsaved = this.unsaved.filter((one) => one.project !== project);
+    for (const painting of mine) void this.addPainted(painting);
+  }
+
+  private async addPainted(painting: Painting): Promise<void> {
+    const { project, image, camera } = painting;
+    const file = this.document.value?.project.id === project ? await this.addFile("painted.png", image) : null;
+    if (file === null || this.document.value?.project.id !== project) {
+      this.unsaved.push(painting);
+      return;
+    }
     const before = this.scene.value;
     const index = silhouettesOf(before).findIndex((silhouette) => sameCamera(silhouette.camera, camera));
     const scene = index >= 0
@@ -304,7 +328,11 @@ export class Studio implements ViewHost {
     const place = effect(() => {
       if (project.value !== undefined) this.options.onPlace(project.value, this.room.place.value);
     });
-    const stops = [place, this.genes.watch(), this.visibility.watch(), this.room.watch(), this.parked.watch(), watchReach(this, this.options.later)];
+    const here = computed(() => (this.state.status.value.kind === "open" ? project.value : undefined));
+    const paintings = effect(() => {
+      if (here.value !== undefined) untracked(() => this.sendUnsaved(here.value!));
+    });
+    const stops = [place, paintings, this.genes.watch(), this.visibility.watch(), this.room.watch(), this.parked.watch(), watchReach(this, this.options.later)];
     return () => stops.forEach((stop) => stop());
   }
 }

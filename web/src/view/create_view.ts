@@ -223,6 +223,10 @@ export class View implements StudioView, Desk {
     this.element.replaceChildren();
   }
 
+  get painting(): boolean {
+    return this.paint.unsaved;
+  }
+
   // What the tools ask for.
 
   get targets(): boolean {
@@ -249,6 +253,10 @@ export class View implements StudioView, Desk {
     if (hit) return { kind: "gene", gene: hit.gene, point: along(origin, hit.t, direction) };
     const ghost = this.look.targets ? this.layer.ghosts.pick(origin, direction) : null;
     return ghost && { kind: "mesh", index: ghost.index, point: along(origin, ghost.t, direction) };
+  }
+
+  genes(): readonly number[] {
+    return this.model.genes();
   }
 
   /** Shown at once; the page says the same a moment later. */

@@ -44,6 +44,8 @@ export interface Desk {
   /** Where a dragged end would snap. */
   snapMark: V | null;
   eye(): Eye;
+  /** Genes that have parts, in the order of the derivation. */
+  genes(): readonly number[];
   under(x: number, y: number): Under | null;
   select(selection: Selection | null): void;
   snapSide(side: Side): void;

@@ -85,6 +85,8 @@ export interface StudioView {
   /** Moves the camera so that all is seen. */
   frame(): void;
   camera(): Camera;
+  /** Whether strokes of the brush would be lost with the page. */
+  readonly painting: boolean;
   /** A small picture of the parts as they are seen now, framed by themselves on nothing; null where there are none. */
   picture(): Promise<Portrait | null>;
   dispose(): void;

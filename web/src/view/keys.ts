@@ -4,7 +4,7 @@ import type { Curve, Vec3 } from "../api";
 import type { Desk } from "./desk";
 import { nudgeStep } from "./drags";
 import { isHidden, type Selection, type Side } from "./host";
-import { turned, zoomed } from "./orbit";
+import { panned, turned, zoomed } from "./orbit";
 import { placingOf, rotated, type Placing } from "./placing";
 import {
   addCurve, addMesh, curvesOf, kMostCurves, meshesOf, movedCurve, movedPoint, removeCurve, removeMesh, setPlacing,
@@ -24,6 +24,7 @@ export interface Key {
 const kSideKeys: Record<string, readonly [Side, Side]> = { "1": ["+z", "-z"], "3": ["+x", "-x"], "7": ["+y", "-y"] };
 const kPointNames = ["start", "first handle", "second handle", "end"];
 const kPause = 800;
+const kPanPixels = 40;
 
 export class Keys {
   private nudge: { what: string; gesture: string; until: number } | null = null;
@@ -49,12 +50,27 @@ export class Keys {
     const arrow = arrows[k.key];
     const movable = (selection?.kind === "curve" || selection?.kind === "mesh") && desk.targets;
     if (arrow && movable) return this.move(selection, arrow, k.shift ? 10 : 1);
+    if (arrow && arrow[2] === 0 && k.shift) {
+      desk.orbit = panned(desk.orbit, desk.eye(), -kPanPixels * arrow[0], kPanPixels * arrow[1]);
+      return true;
+    }
     if (arrow && arrow[2] === 0) {
       desk.orbit = turned(desk.orbit, -8 * arrow[0], 8 * arrow[1]);
       return true;
     }
     if (selection?.kind === "mesh" && desk.targets) return this.reshape(selection.index, k);
-    return false;
+    return (k.key === "." || k.key === ",") && this.part(k.key === "." ? 1 : -1);
+  }
+
+  /** The next part of the model, or the one before, gene by gene; round and round. */
+  private part(step: 1 | -1): boolean {
+    const { desk } = this, genes = desk.genes(), now = desk.selection?.kind === "gene" ? desk.selection.gene : null;
+    if (genes.length === 0) return false;
+    const at = now === null ? (step > 0 ? -1 : 0) : genes.indexOf(now);
+    const gene = genes[(at + step + genes.length) % genes.length]!;
+    desk.select({ kind: "gene", gene });
+    desk.say(`Part ${genes.indexOf(gene) + 1} of ${genes.length}`);
+    return true;
   }
 
   private zoom(factor: number): boolean {

@@ -45,6 +45,8 @@ export interface CloudMessage {
   words: Uint32Array;
 }
 
+/** Of an instance: which of its words is the gene that it belongs to. */
+export const kGeneWord = 13;
 export const kInstanceWords = 16, kBoneWords = 8, kMaterialFloats = 12;
 const kVersion = 1;
 const kMostMeshes = 4096, kMostGenes = 2 ** 24;

@@ -1,7 +1,7 @@
 // The model as it is drawn: parts, bones, the cloud of a rule, marks of genes, the patch on the ground, and what is
 // picked.
 import type { CloudMessage, MeshTable, ModelMessage } from "./messages";
-import { decodeCloud, decodeMeshes, decodeModel, kBoneWords, MessageError } from "./messages";
+import { kGeneWord, kInstanceWords, decodeCloud, decodeMeshes, decodeModel, kBoneWords, MessageError } from "./messages";
 import { CloudPoints } from "./cloud_points";
 import { contactPatch, contactSquare, kContactCells } from "./contact";
 import { markGenes } from "./gene_marks";
@@ -121,6 +121,15 @@ export class ModelLayer {
     this.stage.ground.mesh.visible = look.ground;
     this.stage.ground.setPatch(look.parts && !isEmpty(this.box) ? contactSquare(this.box) : null);
     this.stage.setCasters(this.box);
+  }
+
+  /** Genes that have parts, in the order of the derivation. */
+  genes(): readonly number[] {
+    const { model } = this;
+    if (model === null || !this.stage.parts.group.visible) return [];
+    const genes = new Set<number>();
+    for (let i = 0; i < model.instances; ++i) genes.add(model.words[i * kInstanceWords + kGeneWord]!);
+    return [...genes].sort((a, b) => a - b);
   }
 
   /** `direction` has length 1. */

@@ -58,6 +58,7 @@ export class Notices {
 
 /** Stands in where there is no WebGL 2. */
 export class NoView implements StudioView {
+  readonly painting = false;
   constructor(private readonly element: HTMLElement) {
     const words = document.createElement("p");
     words.className = "view-none";

@@ -14,6 +14,8 @@ export class PaintLayer {
   private readonly paper: CanvasRenderingContext2D;
   private ground: PaintGround | null = null;
   private before: { camera: Camera; url: string } | null = null;
+  /** Until the ground is there, or can not be had. */
+  private loading: Promise<PaintGround | null> = Promise.resolve(null);
   private dabs: Dab[] = [];
   private undone: Dab[] = [];
   private current: Dab | null = null;
@@ -34,6 +36,11 @@ export class PaintLayer {
       "border:1.5px solid #fff;box-shadow:0 0 0 1.5px rgb(0 0 0 / .65),inset 0 0 0 1px rgb(0 0 0 / .35);display:none";
   }
 
+  /** Something was painted that did not go out yet. */
+  get unsaved(): boolean {
+    return this.open && this.dabs.length > 0;
+  }
+
   get open(): boolean {
     return this.canvas.isConnected;
   }
@@ -42,13 +49,12 @@ export class PaintLayer {
   start(width: number, height: number, before: { camera: Camera; url: string } | null): void {
     this.ground = null;
     this.before = before;
-    if (before) {
-      PaintGround.load(before.url).then((ground) => {
-        if (!this.open || this.before !== before) return;
-        this.ground = ground;
-        this.redraw();
-      }, () => (this.before = null));
-    }
+    this.loading = before ? PaintGround.load(before.url).catch(() => null) : Promise.resolve(null);
+    void this.loading.then((ground) => {
+      if (!this.open || this.before !== before) return;
+      this.ground = ground;
+      this.redraw();
+    });
     this.dabs = [];
     this.undone = [];
     this.current = null;
@@ -145,17 +151,24 @@ export class PaintLayer {
     if (!this.open) return;
     this.canvas.remove();
     this.cursor.remove();
-    const { dabs, width, height, ground, before } = this;
+    const { dabs, width, height, before, loading } = this;
     this.ground = this.before = null;
     this.dabs = [];
     this.current = null;
-    if (!keep || (ground ? dabs.length === 0 : !hasPaint(dabs))) return;
+    if (!keep || dabs.length === 0) return;
+    // Who paints and leaves at once keeps what was there before, too.
+    void loading.then((ground) => {
+      if (ground || hasPaint(dabs)) this.send(dabs, width, height, ground, before?.camera ?? camera);
+    });
+  }
+
+  private send(dabs: readonly Dab[], width: number, height: number, ground: PaintGround | null, camera: Camera): void {
     const size = imageSize(width, height), image = document.createElement("canvas");
     image.width = size.width;
     image.height = size.height;
     const paper = image.getContext("2d")!;
     drawAll(paper, dabs, kImageInks, width, height, size.scale, () => ground?.draw(paper, kImageInks, width, height, size.scale));
-    image.toBlob((blob) => { if (blob) this.host.painted(blob, before?.camera ?? camera); }, "image/png");
+    image.toBlob((blob) => { if (blob) this.host.painted(blob, camera); }, "image/png");
   }
 
   private rescale(width: number, height: number): void {

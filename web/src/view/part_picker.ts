@@ -2,7 +2,7 @@
 // came); those that the ray meets are tried from near to far: box, then triangles. Shared buffers, nothing is made per
 // part.
 import type { MeshData, ModelMessage } from "./messages";
-import { kInstanceWords } from "./messages";
+import { kGeneWord, kInstanceWords } from "./messages";
 import { hitBox, hitTriangles } from "./rays";
 import { emptyBox, grow, isEmpty, type Box, type V } from "./vec";
 
@@ -62,7 +62,7 @@ export class PartPicker {
       const instance = this.candidates[i]!;
       if (best && this.starts[instance]! >= best.t) break;
       const t = this.hitPart(model, instance, origin, direction, best ? best.t : Infinity);
-      if (t < (best ? best.t : Infinity)) best = { instance, gene: model.words[instance * kInstanceWords + 13]!, t };
+      if (t < (best ? best.t : Infinity)) best = { instance, gene: model.words[instance * kInstanceWords + kGeneWord]!, t };
     }
     return best;
   }

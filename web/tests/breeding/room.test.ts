@@ -189,6 +189,15 @@ describe("doing", () => {
     expect(room().state.close.value).toEqual({ kind: "pairs", pair: [4, 5] });
   });
 
+  test("what was compared before a reload is not asked again", () => {
+    bench.socket.say(breedingOf(1, [1, 2, 3], { compared: [{ better: 2, worse: 1 }, { better: 3, worse: 1 }] }));
+    room().look("pairs");
+    expect(room().state.close.value).toEqual({ kind: "pairs", pair: [2, 3] });
+    bench.socket.say(breedingOf(1, [1, 2, 3], { compared: [{ better: 2, worse: 1 }, { better: 3, worse: 1 }, { better: 3, worse: 2 }] }));
+    room().look("pairs");
+    expect(room().state.close.value).toEqual({ kind: "pairs", pair: null });
+  });
+
   test("without a connection nothing is lost in silence", () => {
     bench.socket.onclose!();
     room().point(1, 1);

@@ -1,7 +1,7 @@
 import { render } from "preact";
 import { act } from "preact/test-utils";
 import { afterEach, describe, expect, test } from "vitest";
-import { NumberBox } from "../../src/controls/number_field";
+import { NumberBox, NumberField } from "../../src/controls/number_field";
 
 const root = document.createElement("div");
 document.body.append(root);
@@ -68,4 +68,16 @@ describe("a number that is typed", () => {
     press("ArrowUp", { altKey: true });
     expect(values()).toEqual([5.1, 4.1, 4.11]);
   });
+});
+
+test("Alt+Backspace in a row takes the default, Backspace alone does not", () => {
+  let resets = 0;
+  act(() => render(<NumberField label="Alignment" value={3} onChange={() => {}} onReset={() => void ++resets} />, root));
+  const press = (altKey: boolean) => {
+    const event = new KeyboardEvent("keydown", { key: "Backspace", altKey, bubbles: true, cancelable: true });
+    root.querySelector("input")!.dispatchEvent(event);
+    return event.defaultPrevented;
+  };
+  expect([press(false), resets]).toEqual([false, 0]);
+  expect([press(true), resets]).toEqual([true, 1]);
 });

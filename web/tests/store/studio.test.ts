@@ -457,6 +457,24 @@ describe("searching", () => {
 });
 
 describe("painting", () => {
+  test("that could not be sent is kept until the server is back", async () => {
+    const bench = await new Bench().open();
+    const stop = bench.studio.watch();
+    let reachable = false;
+    bench.studio.files.upload = () => (reachable ? Promise.resolve() : Promise.reject(new Error("no server")));
+    bench.studio.painted(new Blob(["x"]), { eye: [0, 1, 5], at: [0, 1, 0] });
+    await settle();
+    expect(bench.studio.hasUnsaved).toBe(true);
+    expect(bench.studio.scene.value.silhouette).toBeUndefined();
+    reachable = true;
+    bench.studio.state.status.value = { kind: "closed" };
+    bench.studio.state.status.value = { kind: "open" };
+    await settle();
+    expect(bench.studio.hasUnsaved).toBe(false);
+    expect(bench.studio.scene.value.silhouette).toHaveLength(1);
+    stop();
+  });
+
   test("uploads the picture and makes or changes the silhouette of its camera", async () => {
     const bench = await new Bench().open();
     const uploaded: string[] = [];

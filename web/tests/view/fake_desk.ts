@@ -26,6 +26,7 @@ export class FakeDesk implements Desk {
   ink: readonly Ink[] = [];
   snapMark: V | null = null;
   hit: Under | null = null;
+  shownGenes: readonly number[] = [];
   asked = 0;
   waiting: (() => void)[] = [];
   readonly draft: Draft;
@@ -49,6 +50,10 @@ export class FakeDesk implements Desk {
 
   eye(): ReturnType<typeof eyeOf> {
     return eyeOf(this.orbit, 800, 600);
+  }
+
+  genes(): readonly number[] {
+    return this.shownGenes;
   }
 
   under(): Under | null {

@@ -386,4 +386,28 @@ describe("keys", () => {
     expect([press("s", { ctrl: true }), press("q"), press("z", { ctrl: true }),
       press("ArrowLeft", { alt: true })]).toEqual([false, false, false, false]);
   });
+
+  it("go through the parts of the model with comma and full stop, round and round", () => {
+    const desk = new FakeDesk(), keys = new Keys(desk, () => 0);
+    const press = (key: string) => keys.press({ key, shift: false, ctrl: false, alt: false });
+    expect(press(".")).toBe(false);
+    desk.shownGenes = [0, 3, 7];
+    const chosen = [".", ".", ".", ".", ",", ","].map((key) => (press(key), desk.selection));
+    expect(chosen.map((one) => (one?.kind === "gene" ? one.gene : null))).toEqual([0, 3, 7, 0, 7, 3]);
+    expect(desk.said.at(-1)).toBe("Part 2 of 3");
+  });
+
+  it("turn the camera with arrows, and move it sideways with Shift", () => {
+    const desk = new FakeDesk(), keys = new Keys(desk, () => 0), { orbit } = desk;
+    const press = (key: string, shift: boolean) => keys.press({ key, shift, ctrl: false, alt: false });
+    press("ArrowRight", false);
+    expect(desk.orbit.target).toEqual(orbit.target);
+    expect(desk.orbit.azimuth).not.toBe(orbit.azimuth);
+    desk.orbit = orbit;
+    press("ArrowRight", true);
+    press("ArrowUp", true);
+    expect(desk.orbit.azimuth).toBe(orbit.azimuth);
+    expect(desk.orbit.target[0]).toBeGreaterThan(orbit.target[0]);
+    expect(desk.orbit.target[1]).toBeGreaterThan(orbit.target[1]);
+  });
 });
