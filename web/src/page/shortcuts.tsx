@@ -92,6 +92,8 @@ export const SHORTCUTS: readonly Shortcut[] = [
   { key: "Insert, N", words: "Add a curve or a volume, as the tool says", group: "In the view" },
   { key: "X, Y, Z", words: "A volume longer along an axis; with Shift shorter", group: "In the view" },
   { key: "R", words: "Turn a volume; with Shift the other way", group: "In the view" },
+  { key: "Arrow keys", words: "Move the brush; with Shift paint; Ctrl-Z takes strokes back", group: "While painting" },
+  { key: "Enter, Escape", words: "Done: the silhouette is a target", group: "While painting" },
   { key: " ", words: "Start or stop the search", group: "Search", run: (studio) => studio.searching.toggle() },
   { key: "k", words: "Keep the model as a favourite", group: "Search", run: (studio) => void keepFavourite(studio) },
   { key: "l", words: "Lock or free the selected gene", group: "Search", run: (studio) => {

@@ -5,7 +5,7 @@ import { Connection, RequestFailed, type Ask, type Socket, type Status } from ".
 import { Files, freeName } from "../connection/files";
 import { isRoomMessage } from "../breeding/apply_room";
 import { Room } from "../breeding/room";
-import type { Look, ViewHost } from "../view/host";
+import type { Look, Painter, ViewHost } from "../view/host";
 import { MessageError } from "../view/messages";
 import { applyBinary, applyMessage } from "./apply_message";
 import { EditQueue, kTypingPause } from "./edit_queue";
@@ -285,9 +285,11 @@ export class Studio implements ViewHost {
     return { camera: found.camera!, url: this.files.url(project, found.image) };
   }
 
-  painted(image: Blob, camera: Camera): void {
+  painter(): Painter {
     const project = this.document.value?.project.id;
-    if (project !== undefined) void this.addPainted({ project, image, camera });
+    return (image, camera) => {
+      if (project !== undefined) void this.addPainted({ project, image, camera });
+    };
   }
 
   /** Whether something that was painted waits for the server. */
@@ -296,10 +298,10 @@ export class Studio implements ViewHost {
   }
 
   /** What could not be sent is sent when the server is back, in the project that it was painted in. */
-  private sendUnsaved(project: number): void {
+  private async sendUnsaved(project: number): Promise<void> {
     const mine = this.unsaved.filter((one) => one.project === project);
     this.unsaved = this.unsaved.filter((one) => one.project !== project);
-    for (const painting of mine) void this.addPainted(painting);
+    for (const painting of mine) await this.addPainted(painting);  // each finds a free name
   }
 
   private async addPainted(painting: Painting): Promise<void> {
@@ -330,7 +332,7 @@ export class Studio implements ViewHost {
     });
     const here = computed(() => (this.state.status.value.kind === "open" ? project.value : undefined));
     const paintings = effect(() => {
-      if (here.value !== undefined) untracked(() => this.sendUnsaved(here.value!));
+      if (here.value !== undefined) void untracked(() => this.sendUnsaved(here.value!));
     });
     const stops = [place, paintings, this.genes.watch(), this.visibility.watch(), this.room.watch(), this.parked.watch(), watchReach(this, this.options.later)];
     return () => stops.forEach((stop) => stop());

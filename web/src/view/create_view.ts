@@ -168,7 +168,7 @@ export class View implements StudioView, Desk {
     if (tool === this.tool) return;
     this.input.cancel();
     this.tools.finish(tool);
-    if (this.tool === "paint") this.paint.finish(true, this.camera());
+    if (this.tool === "paint") this.paint.finish(this.camera());
     this.tool = tool;
     if (tool === "paint") {
       this.motion.set(this.motion.goal);
@@ -218,7 +218,7 @@ export class View implements StudioView, Desk {
     this.observer.disconnect();
     this.sharpness.dispose();
     this.input.dispose();
-    this.paint.finish(false, this.camera());
+    this.paint.finish(this.camera());
     for (const part of [this.notices, this.model, this.layer, this.stage]) part.dispose();
     this.element.replaceChildren();
   }

@@ -56,7 +56,7 @@ export class Hands implements InputTarget {
   }
 
   key(k: Key): boolean {
-    if (this.desk.tool === "paint") return paintKey(this.paint, k, (keep) => this.leavePaint(keep));
+    if (this.desk.tool === "paint") return paintKey(this.paint, k, () => this.leavePaint());
     if (k.key === "Escape") return this.escape();
     if (k.key === "Enter") return this.tools.finish();
     return this.keys.press(k);
@@ -72,8 +72,8 @@ export class Hands implements InputTarget {
     this.element.style.cursor = tool === "select" ? "default" : tool === "paint" ? "none" : "crosshair";
   }
 
-  private leavePaint(keep: boolean): void {
-    this.paint.finish(keep, cameraOf(this.desk.eye()));
+  private leavePaint(): void {
+    this.paint.finish(cameraOf(this.desk.eye()));
     this.setTool("select");
     this.desk.host.setTool("select");
   }

@@ -36,8 +36,10 @@ const host: ViewHost = {
   setTool: (tool) => { events.push({ tool }); view.setTool(tool); },
   newCurve: () => ({ distance: [0, 0, 100] }),
   paintedBefore: () => null,
-  painted: (image, camera) => { events.push({ painted: image.size, type: image.type, camera }); Object.assign(window,
-    { image }); },
+  painter: () => (image, camera) => {
+    events.push({ painted: image.size, type: image.type, camera });
+    Object.assign(window, { image });
+  },
   drawn: (model, milliseconds) => { events.push({ drawn: model, milliseconds }); },
 };
 

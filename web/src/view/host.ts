@@ -12,6 +12,8 @@ export type Selection =
   | { kind: "gene"; gene: number };
 
 /** What the view asks for. All of it ends up as an edit of the document. */
+export type Painter = (image: Blob, camera: Camera) => void;
+
 export interface ViewHost {
   /** The scene shall be `scene`. Edits with the same gesture in a row are one step of undo; `search`: search anew. Returns
    *  the scene that it became, which may have more to it. */
@@ -22,8 +24,8 @@ export interface ViewHost {
   newCurve(): Omit<Curve, "points">;
   /** The silhouette that painting goes on with: the selected one, or else the one of this camera; null: a new one. */
   paintedBefore(camera: Camera): { camera: Camera; url: string } | null;
-  /** A painted silhouette for the camera it was painted with. */
-  painted(image: Blob, camera: Camera): void;
+  /** Takes a painted silhouette for the camera it was painted with, into the project that is open at this call. */
+  painter(): Painter;
   /** The first frame with a new model was submitted: number of the model, milliseconds since it arrived. */
   drawn(model: number, milliseconds: number): void;
 }

@@ -66,7 +66,7 @@ export class Keys {
   private part(step: 1 | -1): boolean {
     const { desk } = this, genes = desk.genes(), now = desk.selection?.kind === "gene" ? desk.selection.gene : null;
     if (genes.length === 0) return false;
-    const at = now === null ? (step > 0 ? -1 : 0) : genes.indexOf(now);
+    const found = now === null ? -1 : genes.indexOf(now), at = found < 0 && step < 0 ? 0 : found;
     const gene = genes[(at + step + genes.length) % genes.length]!;
     desk.select({ kind: "gene", gene });
     desk.say(`Part ${genes.indexOf(gene) + 1} of ${genes.length}`);

@@ -9,8 +9,8 @@ export function paintDrag(paint: PaintLayer, p: Pointer): Drag | null {
   return { move: (q) => paint.move(q), end: () => paint.release(), cancel: () => paint.cancelStroke() };
 }
 
-/** Arrows move the brush, with shift they paint. `leave` ends the tool, with or without what was painted. */
-export function paintKey(paint: PaintLayer, k: Key, leave: (keep: boolean) => void): boolean {
+/** Arrows move the brush, with shift they paint. `leave` ends the tool. */
+export function paintKey(paint: PaintLayer, k: Key, leave: () => void): boolean {
   const arrows: Record<string, readonly [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1],
     ArrowDown: [0, 1] };
   const arrow = arrows[k.key];
@@ -18,7 +18,6 @@ export function paintKey(paint: PaintLayer, k: Key, leave: (keep: boolean) => vo
   if (k.ctrl && k.key.toLowerCase() === "z") return k.shift ? paint.redo() : paint.undo();
   if (k.ctrl && k.key.toLowerCase() === "y") return paint.redo();
   if (k.ctrl || k.alt) return false;
-  if (k.key === "Enter") return leave(true), true;
-  if (k.key === "Escape") return leave(false), true;
+  if (k.key === "Enter" || k.key === "Escape") return leave(), true;
   return false;
 }

@@ -1,7 +1,7 @@
 // The canvas over the view on which a silhouette is painted, for a camera that stands still meanwhile.
 import type { Camera } from "../api";
 import type { Pointer } from "./desk";
-import type { Brush, ViewHost } from "./host";
+import type { Brush, Painter, ViewHost } from "./host";
 import { PaintGround } from "./paint_ground";
 import { drawAll, drawDab, hasPaint, imageSize, kImageInks, type Dab, type Inks } from "./painting";
 import type { Palette, Rgb } from "./palette";
@@ -16,6 +16,8 @@ export class PaintLayer {
   private before: { camera: Camera; url: string } | null = null;
   /** Until the ground is there, or can not be had. */
   private loading: Promise<PaintGround | null> = Promise.resolve(null);
+  /** Of the project in which painting began. */
+  private painter: Painter = () => {};
   private dabs: Dab[] = [];
   private undone: Dab[] = [];
   private current: Dab | null = null;
@@ -49,6 +51,7 @@ export class PaintLayer {
   start(width: number, height: number, before: { camera: Camera; url: string } | null): void {
     this.ground = null;
     this.before = before;
+    this.painter = this.host.painter();
     this.loading = before ? PaintGround.load(before.url).catch(() => null) : Promise.resolve(null);
     void this.loading.then((ground) => {
       if (!this.open || this.before !== before) return;
@@ -139,6 +142,7 @@ export class PaintLayer {
     const [x, y] = this.at, far = Math.max(this.radius / 2, 2);
     this.at = [Math.min(Math.max(x + dx * far, 0), this.width), Math.min(Math.max(y + dy * far, 0), this.height)];
     if (down) {
+      this.undone = [];
       const dab: Dab = { brush: this.brush, radius: this.radius, points: [[x, y], [...this.at]] };
       this.dabs.push(dab);
       drawDab(this.paper, dab, this.inks);
@@ -146,29 +150,29 @@ export class PaintLayer {
     this.moveCursor();
   }
 
-  /** Closes the layer; with `keep` what was painted goes out as an image. */
-  finish(keep: boolean, camera: Camera): void {
+  /** Closes the layer; what was painted goes out as an image. To lose it is what undo is for. */
+  finish(camera: Camera): void {
     if (!this.open) return;
     this.canvas.remove();
     this.cursor.remove();
-    const { dabs, width, height, before, loading } = this;
+    const { dabs, width, height, before, loading, painter } = this;
     this.ground = this.before = null;
     this.dabs = [];
     this.current = null;
-    if (!keep || dabs.length === 0) return;
+    if (dabs.length === 0) return;
     // Who paints and leaves at once keeps what was there before, too.
     void loading.then((ground) => {
-      if (ground || hasPaint(dabs)) this.send(dabs, width, height, ground, before?.camera ?? camera);
+      if (ground || hasPaint(dabs)) this.send(dabs, width, height, ground, (image) => painter(image, before?.camera ?? camera));
     });
   }
 
-  private send(dabs: readonly Dab[], width: number, height: number, ground: PaintGround | null, camera: Camera): void {
+  private send(dabs: readonly Dab[], width: number, height: number, ground: PaintGround | null, out: (image: Blob) => void): void {
     const size = imageSize(width, height), image = document.createElement("canvas");
     image.width = size.width;
     image.height = size.height;
     const paper = image.getContext("2d")!;
     drawAll(paper, dabs, kImageInks, width, height, size.scale, () => ground?.draw(paper, kImageInks, width, height, size.scale));
-    image.toBlob((blob) => { if (blob) this.host.painted(blob, camera); }, "image/png");
+    image.toBlob((blob) => { if (blob) out(blob); }, "image/png");
   }
 
   private rescale(width: number, height: number): void {

@@ -462,7 +462,7 @@ describe("painting", () => {
     const stop = bench.studio.watch();
     let reachable = false;
     bench.studio.files.upload = () => (reachable ? Promise.resolve() : Promise.reject(new Error("no server")));
-    bench.studio.painted(new Blob(["x"]), { eye: [0, 1, 5], at: [0, 1, 0] });
+    bench.studio.painter()(new Blob(["x"]), { eye: [0, 1, 5], at: [0, 1, 0] });
     await settle();
     expect(bench.studio.hasUnsaved).toBe(true);
     expect(bench.studio.scene.value.silhouette).toBeUndefined();
@@ -475,6 +475,23 @@ describe("painting", () => {
     stop();
   });
 
+  test("belongs to the project in which it began", async () => {
+    const bench = await new Bench().open();
+    const stop = bench.studio.watch();
+    const uploaded: [number, string][] = [];
+    bench.studio.files.upload = (project, name) => Promise.resolve(void uploaded.push([project, name]));
+    const first = bench.studio.document.value!.project.id, out = bench.studio.painter();
+    const document = documentOf(1, "other");
+    bench.socket.say({ ...document, project: { ...document.project, id: first + 1 } });
+    out(new Blob(["x"]), { eye: [0, 1, 5], at: [0, 1, 0] });
+    await settle();
+    expect([uploaded.length, bench.studio.hasUnsaved]).toEqual([0, true]);
+    bench.socket.say({ ...document, project: { ...document.project, id: first } });
+    await settle();
+    expect(uploaded).toEqual([[first, "painted.png"]]);
+    stop();
+  });
+
   test("uploads the picture and makes or changes the silhouette of its camera", async () => {
     const bench = await new Bench().open();
     const uploaded: string[] = [];
@@ -483,12 +500,12 @@ describe("painting", () => {
       return Promise.resolve();
     };
     const camera: Camera = { eye: [0, 1, 5], at: [0, 1, 0], tall: 4 };
-    bench.studio.painted(new Blob(["x"]), camera);
+    bench.studio.painter()(new Blob(["x"]), camera);
     await settle();
     expect(uploaded).toEqual(["painted.png"]);
     expect(bench.studio.scene.value.silhouette).toEqual([{ image: "painted.png", view: "parts", camera }]);
     bench.socket.say({ ...documentOf(2, "g", bench.studio.scene.value), files: [{ path: "painted.png", bytes: 1 }] });
-    bench.studio.painted(new Blob(["y"]), { tall: 4, at: [0, 1, 0], eye: [0, 1.000001, 5] });
+    bench.studio.painter()(new Blob(["y"]), { tall: 4, at: [0, 1, 0], eye: [0, 1.000001, 5] });
     await settle();
     expect(uploaded).toEqual(["painted.png", "painted-2.png"]);
     expect(bench.studio.paintedBefore({ ...camera })?.url).toContain("painted-2.png");

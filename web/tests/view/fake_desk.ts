@@ -39,7 +39,7 @@ export class FakeDesk implements Desk {
     select: (selection) => this.selections.push(selection),
     setTool: (tool) => this.toolsSet.push(tool),
     newCurve: (): Omit<Curve, "points"> => ({ offset: 0.7 }),
-    painted: () => {},
+    painter: () => () => {},
     drawn: () => {},
   };
 
