@@ -230,7 +230,7 @@ describe("panels", () => {
     await page.getByRole("button", { name: "Export" }).click();
     await expect.poll(focused).toBe("/projects/1/export/glb?token=mock");
     await page.keyboard.press("ArrowDown");
-    await expect.poll(focused).toBe("/projects/1/export/obj?token=mock");
+    await expect.poll(focused).toBe("/projects/1/export/lods?token=mock");
     await page.keyboard.press("Escape");
     expect(await page.getByRole("menu").count()).toBe(0);
   });

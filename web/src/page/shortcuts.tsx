@@ -186,7 +186,7 @@ export function ShortcutsDialog({ onClose }: { onClose(): void }) {
   const groups = [...new Set(SHORTCUTS.map((one) => one.group))].filter((group) => !here || group === "Page");
   return (
     <Dialog title="Keys" kind="shortcuts" onClose={onClose}>
-      <div class="shortcut-groups">
+      <div class="shortcut-groups" tabIndex={0} role="group" aria-label="All keys">
         {groups.map((group) => (
           <section key={group} aria-label={group}>
             <h3>{group}</h3>
