@@ -3,18 +3,16 @@
 
 #include <fmt/format.h>
 
-#include "base/error.h"
 #include "cmd/attributes.h"
+#include "cmd/detail.h"
 #include "cmd/verbs.h"
 #include "io/mesh_import.h"
-#include "run/mesh_look.h"
 #include "studio/species_pack.h"
 
 namespace espalier {
 
 int breed_verb(const BreedOptions& options) {
   namespace fs = std::filesystem;
-  if (options.lods && options.lod) throw Error("--lod and --lods exclude each other");
   SpeciesRequest request;
   request.from = options.from;
   request.grammar = options.grammar;
@@ -25,8 +23,8 @@ int breed_verb(const BreedOptions& options) {
   request.most_triangles = options.most_triangles;
   request.seed = options.seed;
   request.form.format = options.format;
-  request.form.detail = read_level_of_detail(options.joints, options.lod);
-  request.form.all_levels = options.lods;
+  request.form.detail = level_of(options.detail);
+  request.form.all_levels = options.detail.lods;
   const std::string out =
       !options.out.empty() ? options.out
                            : (fs::path("out") / (fs::path(options.from).stem().stem().string() + "-species")).string();

@@ -32,6 +32,11 @@ void declare_grammar(CLI::App* verb, std::string& grammar) {
   verb->add_option("--grammar", grammar, "Grammar of a derivation, if it lies neither in a run's folder nor near it");
 }
 
+void declare_detail(CLI::App* verb, DetailOptions& detail) {
+  verb->add_option("--joints", detail.joints, "smooth: what touches end to end becomes one tube; separate: as it is");
+  verb->add_option("--lod", detail.lod, "Level of detail, 0 (finest) to 3, with one mesh per material");
+}
+
 void declare_settings(CLI::App* verb, std::vector<std::string>& settings) {
   verb->add_option("--set", settings, "Change a setting of the scene: --set volume.cells=500000 (repeatable)")
       ->expected(1)->take_all();

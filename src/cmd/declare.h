@@ -15,6 +15,8 @@ namespace espalier {
 
 void declare_attributes(CLI::App* verb, std::vector<std::string>& attributes);
 void declare_grammar(CLI::App* verb, std::string& grammar);
+/// --joints and --lod.
+void declare_detail(CLI::App* verb, DetailOptions& detail);
 void declare_settings(CLI::App* verb, std::vector<std::string>& settings);
 void declare_threads(CLI::App* verb, int& threads);
 

@@ -2,12 +2,11 @@
 #include <fmt/format.h>
 
 #include "base/counted.h"
-#include "base/error.h"
 #include "cmd/attributes.h"
+#include "cmd/detail.h"
 #include "cmd/verbs.h"
 #include "io/mesh_import.h"
 #include "run/derivation_file.h"
-#include "run/mesh_look.h"
 #include "run/model_files.h"
 
 namespace espalier {
@@ -25,16 +24,15 @@ void print_levels(const std::vector<ExportReport::File>& files) {
 }  // namespace
 
 int export_verb(const ExportVerbOptions& options) {
-  if (options.lods && options.lod) throw Error("--lod and --lods exclude each other");
   AssimpMeshSource source;
   const std::unique_ptr<Executor> executor = make_serial_executor();
   const ExportReport report =
       export_derivation({options.derivation, options.grammar, parse_attributes(options.attributes), options.out,
-                         read_level_of_detail(options.joints, options.lod), options.lods},
+                         level_of(options.detail), options.detail.lods},
                         source, *executor);
   print_adapted(report.adapted);
   if (report.truncated) fmt::print(stderr, "warning: {}\n", kTruncated);
-  if (options.lods) print_levels(report.files);
+  if (options.detail.lods) print_levels(report.files);
   for (const ExportReport::File& file : report.files)
     fmt::print("wrote {}, {}\n", file.path, counted(file.triangles, "triangle"));
   return kDone;

@@ -186,9 +186,8 @@ void declare_file_verbs(CLI::App& app, CommandLine& line) {
   declare_grammar(exporting, o.grammar);
   declare_attributes(exporting, o.attributes);
   exporting->add_option("-o,--out", o.out, "File to write: .glb .obj .ply .stl")->required();
-  exporting->add_option("--joints", o.joints, "smooth: what touches end to end becomes one tube; separate: as it is");
-  exporting->add_option("--lod", o.lod, "Level of detail, 0 (finest) to 3, with one mesh per material");
-  exporting->add_flag("--lods", o.lods, "All four levels, as NAME-lod0.glb to NAME-lod3.glb, and a table of their triangles");
+  declare_detail(exporting, o.detail);
+  exporting->add_flag("--lods", o.detail.lods, "All four levels, as NAME-lod0.glb to NAME-lod3.glb, and a table of their triangles");
   exporting->callback([&line] { line.verb = [&line] { return export_verb(line.export_); }; });
 }
 
@@ -216,8 +215,7 @@ void declare_render(CLI::App& app, CommandLine& line) {
   verb->add_flag("--transparent", o.transparent, "Alpha instead of a background; the ground's shadow stays");
   verb->add_flag("--no-ground", o.no_ground, "No ground and no shadow on it");
   verb->add_option("--view", o.view, "full, parts (what targets see without details), or bones (full)");
-  verb->add_option("--joints", o.joints, "smooth: what touches end to end becomes one tube; separate: as it is");
-  verb->add_option("--lod", o.lod, "Level of detail, 0 (finest) to 3");
+  declare_detail(verb, o.detail);
   verb->add_flag("--targets", o.targets, "The scene's meshes as ghosts, as in a run's best.png, and its curves over the model");
   verb->add_option("--turntable", o.turntable, "So many frames around the model, in one strip");
   verb->add_option("--columns", o.columns, "Columns of the strip (near to 4:3)");
@@ -261,9 +259,8 @@ void declare_breed(CLI::App& app, CommandLine& line) {
       ->check(CLI::Range(0.0, 1.0));
   verb->add_option("--seed", o.seed, "Seed (1)")->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62));
   verb->add_option("--format", o.format, "glb, obj, ply or stl (glb)");
-  verb->add_option("--joints", o.joints, "smooth: what touches end to end becomes one tube; separate: as it is");
-  verb->add_option("--lod", o.lod, "Level of detail, 0 (finest) to 3, with one mesh per material");
-  verb->add_flag("--lods", o.lods, "All four levels, as NNN-lod0.glb to NNN-lod3.glb; --max-triangles is of lod0");
+  declare_detail(verb, o.detail);
+  verb->add_flag("--lods", o.detail.lods, "All four levels, as NNN-lod0.glb to NNN-lod3.glb; --max-triangles is of lod0");
   declare_grammar(verb, o.grammar);
   declare_attributes(verb, o.attributes);
   declare_threads(verb, o.threads);

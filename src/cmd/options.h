@@ -40,6 +40,13 @@ struct SampleOptions {
   int threads = 0;
 };
 
+/// Of meshes in files.
+struct DetailOptions {
+  std::string joints;                // "separate", "smooth"; empty: not given
+  std::optional<std::uint32_t> lod;
+  bool lods = false;                 // all levels, a file each
+};
+
 struct BreedOptions {
   std::string from;     // a derivation, a run's folder, a grammar or a scene
   std::string grammar;  // of a derivation; empty: the copy in the folder of its run
@@ -48,9 +55,7 @@ struct BreedOptions {
   double strength = 0.3, least_distance = 0.01;
   std::uint64_t seed = 1;
   std::string format = "glb";
-  std::string joints;                 // "separate", "smooth"; empty: not given
-  std::optional<std::uint32_t> lod;
-  bool lods = false;                  // all levels, a file each
+  DetailOptions detail;
   std::vector<std::string> attributes;
   std::string out;  // empty: out/NAME-species
   int threads = 0;
@@ -131,9 +136,7 @@ struct ReproduceOptions {
 struct ExportVerbOptions {
   std::string derivation, grammar, out;
   std::vector<std::string> attributes;
-  std::string joints;                 // "separate", "smooth"; empty: not given
-  std::optional<std::uint32_t> lod;
-  bool lods = false;                  // all levels, a file each
+  DetailOptions detail;
 };
 
 struct RenderOptions {
@@ -146,8 +149,7 @@ struct RenderOptions {
   std::optional<std::uint32_t> turntable;
   bool no_ground = false, transparent = false, targets = false;
   std::string background, view = "full", light;
-  std::string joints;                 // "separate", "smooth"; empty: not given
-  std::optional<std::uint32_t> lod;
+  DetailOptions detail;   // never all levels
   int threads = 0;
 };
 

@@ -6,10 +6,10 @@
 
 #include "base/error.h"
 #include "cmd/attributes.h"
+#include "cmd/detail.h"
 #include "cmd/verbs.h"
 #include "io/mesh_import.h"
 #include "run/find_derivation.h"
-#include "run/mesh_look.h"
 #include "run/model_files.h"
 #include "run/picture_file.h"
 
@@ -65,7 +65,7 @@ PictureRequest request_of(const RenderOptions& options) {
   r.samples = options.samples;
   r.ground = !options.no_ground, r.transparent = options.transparent, r.background = options.background;
   r.view = read_view(options.view);
-  r.detail = read_level_of_detail(options.joints, options.lod);
+  r.detail = level_of(options.detail);
   r.targets = options.targets;
   r.frames = options.turntable.value_or(0), r.columns = options.columns;
   if (!options.light.empty() && !options.turntable) throw Error("--light needs --turntable");

@@ -13,7 +13,7 @@ namespace espalier {
 
 struct Provenance {
   std::string version;  // of Espalier
-  std::string made_by;  // "run", "sample", "export" or "render"
+  std::string made_by;  // "run", "sample", "breed", "export", "render" or "preview"
   std::uint64_t seed = 0;
   std::uint64_t steps = 0;  // run: steps the engine had taken
   std::uint64_t index = 0;  // run: 0 = best, n = alternative n; sample: which one

@@ -97,11 +97,7 @@ class Leveller {
   std::uint64_t count() {
     keep_largest();
     thin_foliage();
-    std::uint64_t sum = 0;
-    for (const std::vector<Piece>* pieces : {&solids_, &foliage_}) {
-      for (const Piece& piece : *pieces) sum += piece.triangles;
-    }
-    return sum;
+    return triangles();
   }
 
   Parts make() {
@@ -229,11 +225,16 @@ class Leveller {
     std::erase_if(solids_, [](const Piece& piece) { return piece.triangles == 0; });
   }
 
+  std::uint64_t triangles() const {
+    std::uint64_t sum = 0;
+    for (const std::vector<Piece>* pieces : {&solids_, &foliage_})
+      for (const Piece& piece : *pieces) sum += piece.triangles;
+    return sum;
+  }
+
   /// Merged meshes copy what instances share.
   void require_few() const {
-    std::uint64_t all = 0;
-    for (const std::vector<Piece>* pieces : {&solids_, &foliage_})
-      for (const Piece& piece : *pieces) all += piece.triangles;
+    const std::uint64_t all = triangles();
     if (all <= LevelOfDetail::kMostTriangles) return;
     throw Error(fmt::format("level of detail {} must have at most {} triangles, got {}", lod_.level,
                             LevelOfDetail::kMostTriangles, all));

@@ -152,20 +152,15 @@ ExportReport export_derivation(const ExportRequest& request, MeshSource& source,
   ModelFiles files(*grammar.graph, meshes, load_textures(grammar), no_ghosts, {}, executor);
   const bool as_it_is = request.grammar.empty() && request.attributes.empty();
   ExportReport report{adapted, false};
-  const auto write = [&](const std::string& path, const std::optional<LevelOfDetail>& detail) {
-    Provenance provenance = made_from(request.derivation, as_it_is, grammar, derivation, path);
-    if (detail) provenance.mesh = to_toml(*detail);
-    report.files.push_back({path, files.write(derivation, path, provenance)});
-  };
+  Provenance provenance = made_from(request.derivation, as_it_is, grammar, derivation, request.out);
   if (request.all_levels) {
-    const fs::path out(request.out);
-    LevelOfDetail detail = request.detail.value_or(LevelOfDetail{});
-    for (detail.level = 0; detail.level < LevelOfDetail::kCount; ++detail.level) {
-      const std::string name = fmt::format("{}-lod{}{}", out.stem().string(), detail.level, out.extension().string());
-      write((out.parent_path() / name).string(), detail);
+    const LevelOfDetail detail = request.detail.value_or(LevelOfDetail{});
+    for (const auto& [name, triangles] : files.write_levels(derivation, request.out, detail, provenance)) {
+      report.files.push_back({(fs::path(request.out).parent_path() / name).string(), triangles});
     }
   } else {
-    write(request.out, request.detail);
+    if (request.detail) provenance.mesh = to_toml(*request.detail);
+    report.files.push_back({request.out, files.write(derivation, request.out, provenance)});
   }
   report.truncated = files.model().truncated;
   return report;

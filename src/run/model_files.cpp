@@ -1,5 +1,7 @@
 #include "run/model_files.h"
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
 #include "base/check.h"
@@ -57,6 +59,23 @@ std::uint64_t ModelFiles::write(const Derivation& derivation, const std::string&
     return 0;
   }
   expander_.expand(derivation, ExpandTo::full, model_);
+  return export_as(path, provenance);
+}
+
+std::vector<ModelFiles::LevelFile> ModelFiles::write_levels(const Derivation& derivation, const std::string& path,
+                                                            LevelOfDetail detail, Provenance provenance) {
+  const std::filesystem::path out(path);
+  expander_.expand(derivation, ExpandTo::full, model_);
+  std::vector<LevelFile> files;
+  for (detail.level = 0; detail.level < LevelOfDetail::kCount; ++detail.level) {
+    const std::string name = fmt::format("{}-lod{}{}", out.stem().string(), detail.level, out.extension().string());
+    provenance.mesh = to_toml(detail);
+    files.push_back({name, export_as((out.parent_path() / name).string(), provenance)});
+  }
+  return files;
+}
+
+std::uint64_t ModelFiles::export_as(const std::string& path, const Provenance& provenance) {
   ExportOptions options;
   if (!provenance.mesh.empty()) options.detail = parse_level_of_detail(provenance.mesh, "the model's settings");
   return export_model(path, model_, meshes_, Surfaces(graph_, model_, textures_), provenance, options);

@@ -8,6 +8,7 @@
 #include "base/executor.h"
 #include "io/provenance.h"
 #include "model/expand.h"
+#include "model/level_of_detail.h"
 #include "model/texture_table.h"
 #include "render/render.h"
 #include "run/input_files.h"
@@ -28,6 +29,14 @@ class ModelFiles {
   /// By the ending of `path`: .glb .obj .ply .stl with details, .png, .json (the derivation). Meshes are made as
   /// `provenance.mesh` says, so that a file is made again as it was. Triangles of a model; else 0. Throws Error.
   std::uint64_t write(const Derivation& derivation, const std::string& path, const Provenance& provenance);
+  struct LevelFile {
+    std::string name;  // without folder
+    std::uint64_t triangles = 0;
+  };
+  /// The model, grown once, at every level of `detail`, the finest first: for `path` = DIR/NAME.glb DIR/NAME-lod0.glb ..
+  /// with the provenance and how it was made. Throws Error.
+  std::vector<LevelFile> write_levels(const Derivation& derivation, const std::string& path, LevelOfDetail detail,
+                                      Provenance provenance);
   Picture picture(const Derivation& derivation);
   Picture picture(const Derivation& derivation, std::array<std::uint32_t, 2> size);
   /// With details; stays until the next call.
@@ -38,6 +47,9 @@ class ModelFiles {
   Surfaces surfaces() { return Surfaces(graph_, model_, textures_); }
 
  private:
+  /// Of model_.
+  std::uint64_t export_as(const std::string& path, const Provenance& provenance);
+
   const GeneratorGraph& graph_;
   const MeshTable& meshes_;
   TextureTable textures_;

@@ -11,7 +11,6 @@
 #include "base/version.h"
 #include "io/file.h"
 #include "model/level_of_detail.h"
-#include "run/mesh_look.h"
 #include "run/model_files.h"
 #include "run/results.h"
 #include "run/scene_toml.h"
@@ -66,28 +65,16 @@ std::string scene_folder(const ShownModel& shown, const std::string& stem) {
   return zip.finish();
 }
 
-std::string zip_of(const TemporaryFolder& folder, const std::string& stem) {
-  ZipWriter zip;
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder.file(""))) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  for (const fs::path& file : files) zip.add(stem + "/" + file.filename().string(), read_file(file.string()));
-  return zip.finish();
-}
-
 /// Every level of detail as a file, and how many triangles each has.
 std::string levels_folder(const ShownModel& shown, ModelFiles& files, const TemporaryFolder& folder,
                           const std::string& stem) {
   std::string table = "file,triangles\n";
-  LevelOfDetail detail{0, Joints::smooth};
-  for (; detail.level < LevelOfDetail::kCount; ++detail.level) {
-    const std::string name = fmt::format("{}-lod{}.glb", stem, detail.level);
-    Provenance provenance = provenance_of(shown);
-    provenance.mesh = to_toml(detail);
-    table += fmt::format("{},{}\n", name, files.write(shown.derivation, folder.file(name), provenance));
+  for (const auto& [name, triangles] : files.write_levels(shown.derivation, folder.file(stem + ".glb"),
+                                                          {.joints = Joints::smooth}, provenance_of(shown))) {
+    table += fmt::format("{},{}\n", name, triangles);
   }
   write_file(folder.file("triangles.csv"), table);
-  return zip_of(folder, stem);
+  return zip_of_folder(folder.file(""), stem);
 }
 
 }  // namespace
@@ -129,7 +116,7 @@ HttpResponse export_model(const ShownModel& shown, const std::string& format, co
   if (format == "lods") return {200, "application/zip", levels_folder(shown, files, folder, stem), stem + "-lods.zip"};
   const std::string file = stem + "." + format;
   files.write(shown.derivation, folder.file(file), provenance_of(shown));
-  if (format == "obj") return {200, "application/zip", zip_of(folder, stem), stem + "-obj.zip"};
+  if (format == "obj") return {200, "application/zip", zip_of_folder(folder.file(""), stem), stem + "-obj.zip"};
   const char* const type = format == "glb" ? "model/gltf-binary" : format == "png" ? "image/png" : "application/octet-stream";
   return {200, type, read_file(folder.file(file)), file};
 }

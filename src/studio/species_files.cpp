@@ -73,26 +73,17 @@ class SpeciesWriter {
 
   /// One file or one per level; what there is to say of them goes into `model`. Triangles of the finest.
   std::uint64_t write_model(std::size_t i, const std::string& folder, nlohmann::ordered_json& model) {
-    const auto write_as = [&](const std::string& file, const std::optional<LevelOfDetail>& detail) {
-      Provenance as = provenance(i);
-      if (detail) as.mesh = to_toml(*detail);
-      return files_.write(species_.siblings[i], folder + "/" + file, as);
-    };
+    const std::string file = name(i, "." + form_.format), path = folder + "/" + file;
+    Provenance as = provenance(i);
     if (!form_.all_levels) {
-      model["file"] = name(i, "." + form_.format);
-      const std::uint64_t triangles = write_as(model["file"], form_.detail);
-      model["triangles"] = triangles;
-      return triangles;
+      if (form_.detail) as.mesh = to_toml(*form_.detail);
+      model["file"] = file;
+      return model["triangles"] = files_.write(species_.siblings[i], path, as);
     }
-    LevelOfDetail detail = form_.detail.value_or(LevelOfDetail{});
-    std::uint64_t finest = 0;
-    for (detail.level = 0; detail.level < LevelOfDetail::kCount; ++detail.level) {
-      const std::string file = name(i, fmt::format("-lod{}.{}", detail.level, form_.format));
-      const std::uint64_t triangles = write_as(file, detail);
-      if (detail.level == 0) model["file"] = file, model["triangles"] = finest = triangles;
-      model["levels"].push_back({{"file", file}, {"triangles", triangles}});
-    }
-    return finest;
+    const auto levels = files_.write_levels(species_.siblings[i], path, form_.detail.value_or(LevelOfDetail{}), as);
+    model["file"] = levels[0].name, model["triangles"] = levels[0].triangles;
+    for (const auto& [level, triangles] : levels) model["levels"].push_back({{"file", level}, {"triangles", triangles}});
+    return levels[0].triangles;
   }
 
   nlohmann::ordered_json index_of(std::size_t i) const {

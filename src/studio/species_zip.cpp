@@ -1,6 +1,5 @@
 #include "studio/species_zip.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -8,7 +7,6 @@
 #include "base/error.h"
 #include "derivation/encode.h"
 #include "io/file.h"
-#include "run/model_files.h"
 #include "run/temporary_folder.h"
 #include "run/toml_value.h"
 #include "studio/species_files.h"
@@ -54,14 +52,7 @@ std::string species_zip(BreedingBench& bench, Executor& executor, const Derivati
   fs::create_directory(pack);
   write_species_files({setup.grammar, setup.meshes, setup.textures, inputs, name, "", settings_of(request), request.seed},
                       species, settings, {}, pack, executor);
-  std::vector<std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(pack)) {
-    if (entry.is_regular_file()) files.push_back(fs::relative(entry.path(), pack).generic_string());
-  }
-  std::sort(files.begin(), files.end());
-  ZipWriter zip;
-  for (const std::string& file : files) zip.add(request.stem + "/" + file, read_file((fs::path(pack) / file).string()));
-  return zip.finish();
+  return zip_of_folder(pack, request.stem);
 }
 
 }  // namespace espalier::studio

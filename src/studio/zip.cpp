@@ -1,8 +1,13 @@
 #include "studio/zip.h"
 
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
 #include <zlib.h>
 
 #include "base/error.h"
+#include "io/file.h"
 
 namespace espalier::studio {
 namespace {
@@ -80,6 +85,18 @@ std::string ZipWriter::finish() {
   std::string result = std::move(out_);
   *this = {};
   return result;
+}
+
+std::string zip_of_folder(const std::string& folder, const std::string& stem) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.push_back(fs::relative(entry.path(), folder).generic_string());
+  }
+  std::sort(files.begin(), files.end());
+  ZipWriter zip;
+  for (const std::string& file : files) zip.add(stem + "/" + file, read_file((fs::path(folder) / file).string()));
+  return zip.finish();
 }
 
 }  // namespace espalier::studio

@@ -20,4 +20,7 @@ class ZipWriter {
   std::uint32_t files_ = 0;
 };
 
+/// All files below `folder`, in the order of their paths, as STEM/PATH. Throws Error.
+std::string zip_of_folder(const std::string& folder, const std::string& stem);
+
 }  // namespace espalier::studio

@@ -54,8 +54,10 @@ export class Projects {
     if (other) this.studio.edits.pause();
     const opened = await this.studio.ask({ kind: "open_project", project: id });
     if (opened) {
-      if (other) this.studio.edits.clear();
-      if (other) this.studio.setTool("select");
+      if (other) {
+        this.studio.edits.clear();
+        this.studio.setTool("select");
+      }
       this.studio.parked.opened(id);
       this.studio.edits.resume();
     } else if (this.studio.state.status.value.kind === "open") {
