@@ -44,6 +44,8 @@ std::vector<Appraisal> ModelAppraiser::appraise(std::span<const Derivation* cons
     appraisal.reasons = report.reasons;
     appraisal.measures = report.measures;
     appraisal.features = features_.of(*graph_, *candidates[i], worker.model, report.measures);
+    if (settings_.onlooker && report.viable)
+      settings_.onlooker({*candidates[i], worker.model, report, appraisal.features});
   });
   if (!targets_) return appraisals;
   std::vector<const Derivation*> viable;

@@ -2,6 +2,7 @@
 // Appraiser: looks at candidates before a person does: whether they may be shown, what the targets make of them, and
 // their features. Threads and models stay behind it.
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -51,6 +52,14 @@ class GenomeAppraiser final : public Appraiser {
   std::vector<std::string> names_;
 };
 
+/// What there is to see of a candidate while it is judged; gone afterwards.
+struct Sighting {
+  const Derivation& derivation;
+  const Model& model;  // with details
+  const ViabilityReport& report;
+  const std::vector<double>& features;
+};
+
 /// Expands candidates and looks at their models.
 class ModelAppraiser final : public Appraiser {
  public:
@@ -60,6 +69,9 @@ class ModelAppraiser final : public Appraiser {
     /// looks at dozens of models in a second.
     ExpandLimits limits = {
         .most_parts = 100'000, .most_turns = 1'000'000, .most_copies = 400'000, .make_materials = false};
+    /// Is shown each viable candidate on the thread that judged it, before the targets are asked; several at a time. For
+    /// who would grow the same model again. May be empty.
+    std::function<void(const Sighting&)> onlooker = {};
   };
 
   /// `targets` may be null; what it does not accept is not viable. All references must outlive this. Throws Error for

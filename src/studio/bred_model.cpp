@@ -23,6 +23,25 @@ double finite(double value) { return std::isfinite(value) ? value : 0; }
 
 }  // namespace
 
+BredModel bred_model(const GeneratorGraph& graph, const Derivation& derivation, const Model& model,
+                     const ViabilityReport& report, std::vector<double> features) {
+  BredModel made;
+  api::Bred& facts = made.facts;
+  facts.genes = static_cast<std::int64_t>(derivation.size());
+  facts.parts = std::count_if(model.instances.begin(), model.instances.end(), in_full);
+  facts.triangles = static_cast<std::int64_t>(finite(report.measures[Measure::triangles]));
+  facts.height = finite(report.measures[Measure::height]);
+  facts.spread = finite(report.measures[Measure::spread]);
+  facts.viable = report.viable;
+  facts.why = report.reasons;
+  facts.words = counted(static_cast<std::size_t>(facts.parts), "part");
+  made.features = std::move(features);
+  SentModel sent = model_message(0, 0, graph, derivation, model);
+  facts.truncated = model.truncated || sent.truncated;
+  made.bytes = std::move(sent.bytes);
+  return made;
+}
+
 BredModelMaker::BredModelMaker(std::shared_ptr<const Setup> setup, bool scored, const ViabilitySettings& viability)
     : setup_(std::move(setup)), scored_(scored), viability_(setup_->meshes, viability), features_(setup_->graph()),
       expander_(setup_->graph(), {.most_parts = kMostParts}) {}
@@ -44,33 +63,23 @@ BredModelPtr BredModelMaker::make(const Derivation& derivation) {
   const GeneratorGraph& graph = setup_->graph();
   expander_.expand(derivation, ExpandTo::full, model_);
   const ViabilityReport report = viability_.judge(derivation, model_, scratch_);
-  auto made = std::make_shared<BredModel>();
-  api::Bred& facts = made->facts;
-  facts.genes = static_cast<std::int64_t>(derivation.size());
-  facts.parts = std::count_if(model_.instances.begin(), model_.instances.end(), in_full);
-  facts.triangles = static_cast<std::int64_t>(finite(report.measures[Measure::triangles]));
-  facts.height = finite(report.measures[Measure::height]);
-  facts.spread = finite(report.measures[Measure::spread]);
-  facts.viable = report.viable;
-  facts.why = report.reasons;
-  facts.words = counted(static_cast<std::size_t>(facts.parts), "part");
-  made->features = features_.of(graph, derivation, model_, report.measures);
-  if (setup_->objective.size() > 0) {
-    const Explanation explanation = explain(derivation);
-    if (scored_ && std::isfinite(explanation.score)) facts.score = explanation.score;
-    if (scored_ && !explanation.words.empty()) facts.words = explanation.words;
-    if (!explanation.rejected.empty()) facts.viable = false, facts.why.push_back(explanation.rejected);
-    for (const Explanation& target : explanation.targets) {
-      for (const Term& term : target.terms) {
-        if (facts.terms.size() == kMostTerms) break;
-        facts.terms.push_back({target.name, term.name, term.count, term.of, term.unit, target.weight * term.value});
-      }
+  auto made = std::make_shared<BredModel>(
+      bred_model(graph, derivation, model_, report, features_.of(graph, derivation, model_, report.measures)));
+  if (setup_->objective.size() > 0) add_targets(derivation, made->facts);
+  return made;
+}
+
+void BredModelMaker::add_targets(const Derivation& derivation, api::Bred& facts) {
+  const Explanation explanation = explain(derivation);
+  if (scored_ && std::isfinite(explanation.score)) facts.score = explanation.score;
+  if (scored_ && !explanation.words.empty()) facts.words = explanation.words;
+  if (!explanation.rejected.empty()) facts.viable = false, facts.why.push_back(explanation.rejected);
+  for (const Explanation& target : explanation.targets) {
+    for (const Term& term : target.terms) {
+      if (facts.terms.size() == kMostTerms) return;
+      facts.terms.push_back({target.name, term.name, term.count, term.of, term.unit, target.weight * term.value});
     }
   }
-  SentModel sent = model_message(0, 0, graph, derivation, model_);
-  facts.truncated = model_.truncated || sent.truncated;
-  made->bytes = std::move(sent.bytes);
-  return made;
 }
 
 ModelPacket bred_packet(const BredModel& model, const Bytes& meshes, std::uint32_t table, std::int64_t session,

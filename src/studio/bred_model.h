@@ -25,6 +25,10 @@ struct BredModel {
 };
 using BredModelPtr = std::shared_ptr<const BredModel>;
 
+/// What can be told without targets. `model`: with details and materials.
+BredModel bred_model(const GeneratorGraph& graph, const Derivation& derivation, const Model& model,
+                     const ViabilityReport& report, std::vector<double> features);
+
 /// The memory of one thread that makes them.
 class BredModelMaker {
  public:
@@ -35,6 +39,7 @@ class BredModelMaker {
   BredModelPtr make(const Derivation& derivation);
 
  private:
+  void add_targets(const Derivation& derivation, api::Bred& facts);
   Explanation explain(const Derivation& derivation);
 
   std::shared_ptr<const Setup> setup_;

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMostFeatures = 4000;   // kept
 constexpr std::uint32_t kRandomModels = 24;  // that diversity is measured by
+constexpr std::size_t kMostSeenBytes = 256 << 20;  // of models kept of those judged
 
 }  // namespace
 
@@ -38,6 +39,27 @@ void BreedingBench::take(const StoredState& state) {
   usual_is_exact_ = false;
   features_.clear();
   random_.clear();
+  forget_seen();
+}
+
+void BreedingBench::forget_seen() {
+  seen_.clear();
+  seen_bytes_ = 0;
+}
+
+void BreedingBench::watch(const Sighting& one) {
+  auto model = std::make_shared<const BredModel>(
+      bred_model(graph(), one.derivation, one.model, one.report, one.features));
+  const std::lock_guard lock(seen_mutex_);
+  if (seen_bytes_ + model->bytes.size() > kMostSeenBytes) return;
+  seen_bytes_ += model->bytes.size();
+  seen_.emplace(hash(one.derivation), Seen{one.derivation, std::move(model)});
+}
+
+BredModelPtr BreedingBench::seen(const Derivation& derivation) const {
+  const auto [first, last] = seen_.equal_range(hash(derivation));
+  const auto same = std::find_if(first, last, [&](const auto& one) { return one.second.derivation == derivation; });
+  return same == last ? nullptr : same->second.model;
 }
 
 const std::vector<double>& BreedingBench::features(const std::string& hash,
@@ -117,6 +139,11 @@ BreedProblem BreedingBench::problem(const api::RoomSettings& settings, std::uint
   // What is bred depends on nothing but this state, so that it can be bred again.
   if (!usual_is_exact_) usual_.reset();
   judged.viability = viability(settings);
+  forget_seen();
+  if (setup_->objective.size() == 0 && !settings.taste.value()) {
+    judged.limits.make_materials = true;
+    judged.onlooker = [this](const Sighting& sighting) { watch(sighting); };
+  }
   appraiser_ =
       std::make_unique<ModelAppraiser>(setup_->grammar.graph, setup_->meshes, judged, scorer_.get(), executor_);
   BreedProblem problem;

@@ -5,8 +5,10 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include <studio_types.h>
@@ -14,6 +16,7 @@
 #include "base/executor.h"
 #include "breed/breed_problem.h"
 #include "run/scene_scorer.h"
+#include "studio/bred_model.h"
 #include "studio/workbench.h"
 
 namespace espalier::studio {
@@ -49,6 +52,10 @@ class BreedingBench {
   /// What is bred here, judged by these settings. It is good until the next call of this or of take.
   BreedProblem problem(const api::RoomSettings& settings, std::uint64_t seed,
                        const std::vector<api::DrawPlace>& locked);
+  /// The model of one that was judged for the problem last posed; null where none was kept: there are targets, or no
+  /// room for more.
+  BredModelPtr seen(const Derivation& derivation) const;
+  void forget_seen();
 
   /// Of a derivation by the hash of its text. Kept, as long as the state stays.
   const std::vector<double>& features(const std::string& hash,
@@ -70,8 +77,16 @@ class BreedingBench {
   std::string usual_of_;                    // this text
   bool usual_is_exact_ = false;             // and of this very state
   std::unique_ptr<SceneScorer> scorer_;
+  void watch(const Sighting& sighting);
   ModelAppraiser& looker();
 
+  struct Seen {
+    Derivation derivation;
+    BredModelPtr model;
+  };
+  std::mutex seen_mutex_;  // while candidates are judged
+  std::unordered_multimap<std::uint64_t, Seen> seen_;  // by the derivation's hash
+  std::size_t seen_bytes_ = 0;
   std::unique_ptr<ModelAppraiser> appraiser_;
   std::unique_ptr<ModelAppraiser> looker_;  // for features, whatever is viable
   std::map<std::string, std::vector<double>> features_;

@@ -247,9 +247,9 @@ BredModelPtr BreedingRoom::model_of(const RoomIndividual& one) {
 
 /// To all pages, what is new.
 void BreedingRoom::send_models() {
-  if (!meshes_) return;
   for (const RoomIndividual& one : session_->individuals()) {
     if (!one.model || sent_[one.row.id] == one.version) continue;
+    update_makers();  // and the table of meshes
     sent_[one.row.id] = one.version;
     const ModelPacket sent = packet(one);
     const std::lock_guard lock(mutex_);

@@ -106,6 +106,11 @@ void BreedingSession::reload() {
     individuals_.back().version = ++versions_;
     other = true;
   }
+  for (const RoomIndividual& one : individuals_) {
+    if (!one.derivation || one.model) continue;
+    if (const BredModelPtr seen = bench_.seen(*one.derivation)) keep_model(one.row.derivation, seen);
+  }
+  bench_.forget_seen();
   if (other || before.size() != individuals_.size()) expect_again();
 }
 

@@ -240,6 +240,36 @@ TEST_F(BreedingTest, ManyTabsSeeTheSameSession) {
   EXPECT_EQ(two->ask("breed"), "no breeding session is open");
 }
 
+/// What judges candidates hands their models on; a session that is opened grows them from their texts.
+TEST_F(BreedingTest, AModelIsTheSameWhetherJudgedOrGrownAgain) {
+  for (const char* sample : {"gentree-natural", "arboretum", "modular-house"}) {
+    auto page = project(sample);
+    ASSERT_EQ(begin(*page, {{"population", 9}}), "");
+    ASSERT_EQ(page->ask("breed", {}), "");
+    ASSERT_TRUE(page->wait_for_models());
+    const std::int64_t session = page->session()["id"];
+    const std::vector<std::int64_t> shown = page->ids();
+    const auto bred = page->bred;
+    const auto models = page->models;
+    ASSERT_EQ(page->ask("leave_breeding", {}), "");
+    page->bred.clear();
+    page->models.clear();
+    ASSERT_EQ(page->ask("open_breeding", {{"session", session}}), "");
+    ASSERT_TRUE(page->wait_for_models());
+    ASSERT_EQ(page->ids(), shown);
+    for (const std::int64_t id : shown) {
+      constexpr std::size_t kVersionAt = 16, kModelAt = 24;
+      std::string before = models.at(id), after = page->models.at(id);
+      before.replace(kVersionAt, 4, 4, '\0'), after.replace(kVersionAt, 4, 4, '\0');
+      before.replace(kModelAt + 8, 4, 4, '\0'), after.replace(kModelAt + 8, 4, 4, '\0');
+      EXPECT_TRUE(before == after) << sample << " " << id;
+      json was = bred.at(id), is = page->bred.at(id);
+      was.erase("version"), is.erase("version");
+      EXPECT_EQ(was, is) << sample << " " << id;
+    }
+  }
+}
+
 TEST_F(BreedingTest, AFavouriteIsKeptAndShownAndBredFrom) {
   const auto owned = project("gentree-natural");
   BreedingPage& page = *owned;
