@@ -52,6 +52,7 @@ export class RoomStage {
   private frame = 0;
   private last = 0;
   private most: number;
+  private readonly software: boolean;
   private next = 0;
   private readonly back = new Vector3();
   private readonly right = new Vector3();
@@ -65,6 +66,7 @@ export class RoomStage {
 
   private constructor(opened: Opened, private readonly complain: (text: string) => void) {
     this.element = opened.canvas;
+    this.software = opened.software;
     this.most = opened.software ? kMostSlow : kMost;
     this.renderer = new WebGLRenderer({ canvas: opened.canvas, context: opened.context });
     this.renderer.autoClear = false;
@@ -155,6 +157,7 @@ export class RoomStage {
     const before = renderer.getClearColor(new Color());
     this.aim(model.span, null, width / height, this.azimuth, kElevation);
     model.light(this.azimuth);
+    model.setQuick(false);
     renderer.setClearColor(0, 0);
     renderer.setRenderTarget(target);
     renderer.clear();
@@ -258,6 +261,7 @@ export class RoomStage {
     const azimuth = this.azimuth + (large ? this.byHand : 0);
     this.aim(model.span, shared, rect.width / rect.height, azimuth, large ? this.elevation : kElevation);
     model.light(azimuth);
+    model.setQuick(this.software && !large);
     renderer.render(model.scene, this.camera);
   }
 

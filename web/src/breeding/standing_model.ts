@@ -1,5 +1,6 @@
 // A model of the breeding room as it is drawn: its parts, as the view of the studio draws them, and the disc below them.
 import { Scene, Vector3 } from "three";
+import { kForSmall } from "../view/coarse_mesh";
 import { contactPatch, kContactCells } from "../view/contact";
 import { decodeModel, kInstanceWords, MessageError, type MeshTable, type ModelMessage } from "../view/messages";
 import type { Palette } from "../view/palette";
@@ -16,7 +17,7 @@ const scratch = new Float32Array(kContactCells ** 2);
 export class StandingModel {
   readonly scene = new Scene();
   span: Span;
-  private readonly parts = new Parts(false);
+  private readonly parts = new Parts(false, kForSmall);
   private readonly disc = new Disc();
   private table: MeshTable | null = null;
   private readonly key = kKey.clone();
@@ -71,6 +72,11 @@ export class StandingModel {
   light(azimuth: number): void {
     const c = Math.cos(azimuth), s = Math.sin(azimuth);
     this.key.set(kKey.x * c + kKey.z * s, kKey.y, kKey.z * c - kKey.x * s);
+  }
+
+  /** Whether few sides will do: it is drawn small, where that takes long. */
+  setQuick(quick: boolean): void {
+    this.parts.setQuick(quick);
   }
 
   withoutDisc(draw: () => void): void {

@@ -1,14 +1,23 @@
 // Triangles for frames that must be quick: a mesh with fewer of them over the same vertices.
+import type { MeshData } from "./messages";
 
-/** Meshes with fewer triangles are as coarse as they need to be. */
-const kFew = 128;
-/** Cells along the longest side of a mesh: a ball keeps about 150 triangles. */
-const kCells = 6;
+export interface Coarseness {
+  /** Meshes with fewer triangles are as coarse as they need to be. */
+  few: number;
+  /** Along the longest side of a mesh. */
+  cells: number;
+}
+/** For movement in a large view: a ball keeps about 150 triangles. */
+export const kForMovement: Coarseness = { few: 128, cells: 6 };
+/** For models of a few hundred pixels, whose branches are a few of them wide: these become square. */
+export const kForSmall: Coarseness = { few: 20, cells: 2 };
 
 /** The triangles whose corners lie in three different cells of a grid, each corner moved to the first vertex of its cell
- *  (Rossignac and Borrel 1993); three vertices a triangle, as in `indices`. Null where that saves less than half. */
-export function coarseIndices(positions: Float32Array, indices: Uint32Array): Uint32Array | null {
-  if (indices.length < 3 * kFew) return null;
+ *  (Rossignac and Borrel 1993) that looks straight up, straight down, or else, as it does; three vertices a triangle, as in `indices`.
+ *  Null where that saves less than half. */
+export function coarseIndices({ positions, normals, indices }: Pick<MeshData, "positions" | "normals" | "indices">,
+  { few, cells }: Coarseness): Uint32Array | null {
+  if (indices.length < 3 * few) return null;
   const least = [Infinity, Infinity, Infinity], most = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < positions.length; ++i) {
     least[i % 3] = Math.min(least[i % 3]!, positions[i]!);
@@ -16,10 +25,11 @@ export function coarseIndices(positions: Float32Array, indices: Uint32Array): Ui
   }
   const longest = Math.max(most[0]! - least[0]!, most[1]! - least[1]!, most[2]! - least[2]!);
   if (!(longest > 0)) return null;
-  const scale = kCells / longest, firsts = new Map<number, number>(), first = new Uint32Array(positions.length / 3);
+  const scale = cells / longest, firsts = new Map<number, number>(), first = new Uint32Array(positions.length / 3);
   for (let v = 0; v < first.length; ++v) {
-    let cell = 0;
-    for (let i = 0; i < 3; ++i) cell = cell * (kCells + 1) + Math.floor((positions[3 * v + i]! - least[i]!) * scale);
+    // The lids of a cylinder share their corners with its side, and nothing else.
+    let cell = Math.trunc(1.001 * normals[3 * v + 1]!) + 1;
+    for (let i = 0; i < 3; ++i) cell = cell * cells + Math.min(Math.floor((positions[3 * v + i]! - least[i]!) * scale), cells - 1);
     const known = firsts.get(cell);
     if (known === undefined) firsts.set(cell, v);
     first[v] = known ?? v;

@@ -6,7 +6,7 @@ import {
   RGBAFormat, UnsignedByteType,
   Vector2, Vector3, Matrix4, type Texture,
 } from "three";
-import { coarseIndices } from "./coarse_mesh";
+import { coarseIndices, type Coarseness } from "./coarse_mesh";
 import { kInstanceWords, kMaterialFloats, type MeshTable, type ModelMessage } from "./messages";
 import { extentOf, kProxy, type Extent } from "./part_picker";
 import { kPartsFragment, kPartsVertex, kShadowFragment, kShadowVertex } from "./parts_shader";
@@ -72,7 +72,7 @@ export class Parts {
   private quick = false;
   private materials: DataTexture;
 
-  constructor(shadows: boolean) {
+  constructor(shadows: boolean, private readonly coarseness: Coarseness) {
     this.marks = { value: texture(new Uint8Array(kMarkWidth), kMarkWidth, 1, false) };
     this.materials = texture(new Float32Array(12 * kMaterialRow), 3 * kMaterialRow, 1, true);
     this.material = new RawShaderMaterial({
@@ -100,7 +100,7 @@ export class Parts {
     this.extents = table.meshes.map(extentOf);
     this.batches = table.meshes.map((mesh) => {
       const position = new BufferAttribute(mesh.positions, 3), normal = new BufferAttribute(mesh.normals, 3);
-      const index = new BufferAttribute(mesh.indices, 1), fewer = coarseIndices(mesh.positions, mesh.indices);
+      const index = new BufferAttribute(mesh.indices, 1), fewer = coarseIndices(mesh, this.coarseness);
       const coarse = fewer === null ? index : new BufferAttribute(fewer, 1);
       const batch = { position, normal, index, coarse, count: 0 } as Batch;
       this.reserve(batch, 16);

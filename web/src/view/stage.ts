@@ -8,6 +8,7 @@ import {
 import { Ground } from "./ground";
 import { kFovDeg, type Eye } from "./orbit";
 import type { Palette } from "./palette";
+import { kForMovement } from "./coarse_mesh";
 import { Parts } from "./parts";
 import { isEmpty, type Box } from "./vec";
 
@@ -64,7 +65,7 @@ export class Stage {
     this.renderer.sortObjects = false; // `add` keeps the order; sorting would measure every geometry
     this.full = software ? 1 : Math.min(window.devicePixelRatio || 1, 2);
     this.renderer.setPixelRatio(this.full);
-    this.parts = new Parts(!software);
+    this.parts = new Parts(!software, kForMovement);
     this.ground = new Ground(!software);
     this.camera.matrixAutoUpdate = false;
     this.shadowCamera.matrixAutoUpdate = false;

@@ -1,8 +1,8 @@
 import { describe, expect, test } from "vitest";
-import { coarseIndices } from "../../src/view/coarse_mesh";
+import { coarseIndices, kForMovement, kForSmall } from "../../src/view/coarse_mesh";
 
 /** A ball of rings and segments, its poles many vertices each, radius 0.5. */
-function ball(rings: number, segments: number): { positions: Float32Array; indices: Uint32Array } {
+function ball(rings: number, segments: number) {
   const positions: number[] = [], indices: number[] = [];
   for (let i = 0; i <= rings; ++i) {
     for (let k = 0; k < segments; ++k) {
@@ -13,7 +13,32 @@ function ball(rings: number, segments: number): { positions: Float32Array; indic
       indices.push(a, b, a + segments, b, b + segments, a + segments);
     }
   }
-  return { positions: Float32Array.from(positions), indices: Uint32Array.from(indices) };
+  const normals = Float32Array.from(positions, (number) => 2 * number);
+  return { positions: Float32Array.from(positions), normals, indices: Uint32Array.from(indices) };
+}
+
+/** A cylinder of that many sides, its lids with vertices of their own that come first. */
+function cylinder(sides: number) {
+  const positions: number[] = [], normals: number[] = [], indices: number[] = [];
+  const ring = (y: number, up: number): number => {
+    const first = positions.length / 3;
+    for (let k = 0; k < sides; ++k) {
+      const x = Math.cos(2 * Math.PI * k / sides), z = Math.sin(2 * Math.PI * k / sides);
+      positions.push(0.5 * x, y, 0.5 * z);
+      normals.push(...(up === 0 ? [x, 0, z] : [0, up, 0]));
+    }
+    return first;
+  };
+  for (const up of [-1, 1]) {
+    const lid = ring(0.5 * up, up);
+    for (let k = 1; k + 1 < sides; ++k) indices.push(lid, lid + k, lid + k + 1);
+  }
+  const below = ring(-0.5, 0), above = ring(0.5, 0);
+  for (let k = 0; k < sides; ++k) {
+    const next = (k + 1) % sides;
+    indices.push(below + k, below + next, above + k, above + k, below + next, above + next);
+  }
+  return { positions: Float32Array.from(positions), normals: Float32Array.from(normals), indices: Uint32Array.from(indices) };
 }
 
 function volume(positions: Float32Array, indices: Uint32Array): number {
@@ -27,7 +52,7 @@ function volume(positions: Float32Array, indices: Uint32Array): number {
 
 describe("a coarse mesh", () => {
   test("of a ball has a fraction of its triangles, and nearly its volume", () => {
-    const { positions, indices } = ball(20, 24), coarse = coarseIndices(positions, indices)!;
+    const fine = ball(20, 24), { positions, indices } = fine, coarse = coarseIndices(fine, kForMovement)!;
     expect(coarse.length).toBeLessThan(indices.length / 3);
     expect(coarse.length).toBeGreaterThan(3 * 60);
     expect(volume(positions, coarse) / volume(positions, indices)).toBeGreaterThan(0.8);
@@ -35,7 +60,7 @@ describe("a coarse mesh", () => {
   });
 
   test("has the vertices of the fine one, three different ones to a triangle", () => {
-    const { positions, indices } = ball(20, 24), coarse = coarseIndices(positions, indices)!;
+    const fine = ball(20, 24), { positions } = fine, coarse = coarseIndices(fine, kForMovement)!;
     for (let i = 0; i < coarse.length; i += 3) {
       const corners = [...coarse.subarray(i, i + 3)];
       expect(new Set(corners).size).toBe(3);
@@ -43,12 +68,23 @@ describe("a coarse mesh", () => {
     }
   });
 
+  test("of a cylinder is a box whose sides keep the light of their sides, and whose lids that of lids", () => {
+    const fine = cylinder(12), coarse = coarseIndices(fine, kForSmall)!;
+    expect(fine.indices.length / 3).toBe(44);
+    expect(coarse.length / 3).toBe(12);
+    for (let i = 0; i < coarse.length; i += 3) {
+      const up = [...coarse.subarray(i, i + 3)].map((v) => fine.normals[3 * v + 1]!);
+      expect(new Set(up).size).toBe(1);
+    }
+    expect(coarseIndices(fine, kForMovement)).toBeNull();
+  });
+
   test("is not made of few triangles, of a mesh without size, or where it saves nothing", () => {
     const small = ball(4, 8);
-    expect(coarseIndices(small.positions, small.indices)).toBeNull();
-    const { positions, indices } = ball(20, 24);
-    expect(coarseIndices(new Float32Array(positions.length), indices)).toBeNull();
+    expect(coarseIndices(small, kForMovement)).toBeNull();
+    const fine = ball(20, 24);
+    expect(coarseIndices({ ...fine, positions: new Float32Array(fine.positions.length) }, kForMovement)).toBeNull();
     const apart = Float32Array.from({ length: 9 * 150 }, (_, i) => Math.floor(i / 9) * 0 + [0, 0, 0, 1, 0, 0, 0, 1, 0][i % 9]!);
-    expect(coarseIndices(apart, Uint32Array.from({ length: 450 }, (_, i) => i))).toBeNull();
+    expect(coarseIndices({ positions: apart, normals: apart, indices: Uint32Array.from({ length: 450 }, (_, i) => i) }, kForMovement)).toBeNull();
   });
 });

@@ -4,6 +4,7 @@ import { fieldOf, kFieldFloats } from "../../src/view/field";
 import { kHighlighted, kLocked, kSelected, markGenes } from "../../src/view/gene_marks";
 import { decodeMeshes, decodeModel } from "../../src/view/messages";
 import { makeForm } from "../../src/view/form";
+import { kForMovement } from "../../src/view/coarse_mesh";
 import { Parts } from "../../src/view/parts";
 import { extentOf } from "../../src/view/part_picker";
 import { creases, kShapes, shapeFile, shapeOf, shapeTriangles } from "../../src/view/shapes";
@@ -98,7 +99,7 @@ describe("parts", () => {
   const table = decodeMeshes(meshMessage(1, treeMeshes()));
 
   it("draws one call per mesh, whatever the order of instances, and reuses its buffers", () => {
-    const parts = new Parts(false);
+    const parts = new Parts(false, kForMovement);
     parts.setMeshes(table);
     const big = decodeModel(treeModel(3000), 4);
     parts.setModel(big, table);

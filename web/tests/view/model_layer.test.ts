@@ -1,5 +1,6 @@
 import { expect, test } from "vitest";
 import { ModelLayer } from "../../src/view/model_layer";
+import { kForMovement } from "../../src/view/coarse_mesh";
 import { Parts } from "../../src/view/parts";
 import type { Stage } from "../../src/view/stage";
 import { isEmpty, type Box } from "../../src/view/vec";
@@ -7,7 +8,7 @@ import { meshMessage, treeMeshes, treeModel } from "./synthetic";
 
 /** All of a stage that needs no graphics. */
 function setup() {
-  const casters: Box[] = [], patches: unknown[] = [], parts = new Parts(false);
+  const casters: Box[] = [], patches: unknown[] = [], parts = new Parts(false, kForMovement);
   const stage = {
     parts, add: () => {}, setCasters: (box: Box) => casters.push(box),
     ground: { bytes: new Uint8Array(2 ** 16), setPatch: (square: unknown) => patches.push(square) },
