@@ -113,7 +113,8 @@ try {
   }
   tell("stroke", waits, "(100 median, 200 p95 wanted)");
 
-  await page.getByRole("slider", { name: "Time", exact: true }).focus();
+  const time = page.getByRole("slider", { name: "Time", exact: true }), seconds = await time.inputValue();
+  await time.focus();
   await page.keyboard.press("End");  // a minute: no search ends by itself before it is stopped
   await page.waitForTimeout(1000);
   const stop = page.locator(".search-button", { hasText: "Stop" });
@@ -139,8 +140,10 @@ try {
   tell("long tasks", tasks, `(0 wanted; in ${1.5 * stops.length} s of searching)`);
   tell("stop", stops);
   await page.locator(".view-element").focus();
-  await page.keyboard.press("Control+z");
-  await page.waitForTimeout(500);
+  while ((await time.inputValue()) !== seconds) {  // searches are steps too
+    await page.keyboard.press("Control+z");
+    await page.waitForTimeout(500);
+  }
   await idle(page);
 
   const reach: number[] = [];

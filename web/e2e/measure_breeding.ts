@@ -112,7 +112,7 @@ async function alone(page: Page, url: string): Promise<{ first: number; word: nu
 const times = Number(process.argv[2] ?? 5);
 const browser = await launch();
 try {
-  for (const sample of ["Gentree", "Gentree natural", "Arboretum"]) {
+  for (const sample of (process.argv[3] ?? "Gentree,Gentree natural,Arboretum").split(",")) {
     const program = new Program();
     try {
       await program.start();

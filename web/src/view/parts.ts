@@ -1,18 +1,20 @@
 // The model's parts: one instanced draw call per mesh of the table. A message's records are copied once, sorted by
-// mesh, into buffers that only ever grow; materials and marks of genes are small textures. Nothing is made per part.
+// mesh, into a texture that only ever grows; materials and marks of genes are small textures. Nothing is made per part.
 import {
-  BufferAttribute, DataTexture, DoubleSide, DynamicDrawUsage, FloatType, GLSL3, Group, InstancedBufferGeometry,
-  InstancedInterleavedBuffer, InterleavedBufferAttribute, Mesh, NearestFilter, RawShaderMaterial, RedFormat,
-  RGBAFormat, UnsignedByteType,
+  DataTexture, DoubleSide, DynamicDrawUsage, FloatType, GLSL3, Group, InstancedBufferAttribute, InstancedBufferGeometry,
+  Mesh, NearestFilter, RawShaderMaterial, RedFormat, RGBAFormat, UnsignedByteType,
   Vector2, Vector3, Matrix4, type Texture,
 } from "three";
-import { coarseIndices, type Coarseness } from "./coarse_mesh";
+import type { Coarseness } from "./coarse_mesh";
+import { packsOf, type MeshPack } from "./mesh_packs";
 import { kInstanceWords, kMaterialFloats, type MeshTable, type ModelMessage } from "./messages";
 import { extentOf, kProxy, type Extent } from "./part_picker";
 import { kPartsFragment, kPartsVertex, kShadowFragment, kShadowVertex } from "./parts_shader";
 import type { Box } from "./vec";
 
 const kMarkWidth = 1024, kMaterialRow = 64;
+/** Of the texture of instances: 4 texels each. */
+const kInstanceRow = 256;
 /** Shorter runs are copied word by word: a view into the message for each would cost more than it saves. */
 const kRun = 32;
 
@@ -49,15 +51,10 @@ class BoxOfParts {
 
 /** Instances of one mesh. */
 interface Batch {
-  position: BufferAttribute;
-  normal: BufferAttribute;
-  index: BufferAttribute;
-  /** For quick frames; the same as `index` where that is coarse enough. */
-  coarse: BufferAttribute;
+  pack: MeshPack;
   mesh: Mesh<InstancedBufferGeometry, RawShaderMaterial>;
-  buffer: InstancedInterleavedBuffer;
-  words: Uint32Array;
-  floats: Float32Array;
+  /** Per pack: number of its first instance, and of that after the last of the batch. */
+  range: InstancedBufferAttribute;
   count: number;
 }
 
@@ -70,16 +67,20 @@ export class Parts {
   extents: Extent[] = [];
   private batches: Batch[] = [];
   private quick = false;
+  private readonly instances: { value: DataTexture };
+  private floats!: Float32Array;
+  private words!: Uint32Array;
   private materials: DataTexture;
 
   constructor(shadows: boolean, private readonly coarseness: Coarseness) {
     this.marks = { value: texture(new Uint8Array(kMarkWidth), kMarkWidth, 1, false) };
+    this.instances = { value: this.instanceTexture(1) };
     this.materials = texture(new Float32Array(12 * kMaterialRow), 3 * kMaterialRow, 1, true);
     this.material = new RawShaderMaterial({
       glslVersion: GLSL3, vertexShader: kPartsVertex, fragmentShader: kPartsFragment, side: DoubleSide,
       defines: shadows ? { SHADOWS: 1 } : {},
       uniforms: {
-        uMaterials: { value: this.materials }, uMarks: this.marks, uMarkWidth: this.markWidth, uDim: { value: 0 },
+        uInstances: this.instances, uMaterials: { value: this.materials }, uMarks: this.marks, uMarkWidth: this.markWidth, uDim: { value: 0 },
         uLight: { value: 1 },
         uKey: { value: new Vector3(0.45, 0.8, 0.4).normalize() }, uAccent: { value: [1, 0.6, 0.1] },
         uLocked: { value: [0.1, 0.4, 0.9] },
@@ -89,6 +90,7 @@ export class Parts {
     });
     this.shadowMaterial = new RawShaderMaterial({
       glslVersion: GLSL3, vertexShader: kShadowVertex, fragmentShader: kShadowFragment, side: DoubleSide,
+      uniforms: { uInstances: this.instances },
       polygonOffset: true,
       polygonOffsetFactor: 2, polygonOffsetUnits: 4,
     });
@@ -98,12 +100,9 @@ export class Parts {
   setMeshes(table: MeshTable): void {
     this.clear();
     this.extents = table.meshes.map(extentOf);
-    this.batches = table.meshes.map((mesh) => {
-      const position = new BufferAttribute(mesh.positions, 3), normal = new BufferAttribute(mesh.normals, 3);
-      const index = new BufferAttribute(mesh.indices, 1), fewer = coarseIndices(mesh, this.coarseness);
-      const coarse = fewer === null ? index : new BufferAttribute(fewer, 1);
-      const batch = { position, normal, index, coarse, count: 0 } as Batch;
-      this.reserve(batch, 16);
+    this.batches = packsOf(table, this.coarseness).map((pack) => {
+      const batch = { pack, count: 0 } as Batch;
+      this.reserve(batch, 1);
       return batch;
     });
   }
@@ -112,27 +111,29 @@ export class Parts {
   setQuick(quick: boolean): void {
     if (quick === this.quick) return;
     this.quick = quick;
-    for (const batch of this.batches) batch.mesh.geometry.setIndex(quick ? batch.coarse : batch.index);
+    for (const batch of this.batches) this.setIndex(batch);
   }
 
   /** Copies the model's instances and materials; returns the box around the parts. */
   setModel(model: ModelMessage, table: MeshTable): Box {
     const { words, floats, instances } = model, batches = this.batches;
-    const counts = new Uint32Array(batches.length);
+    const counts = new Uint32Array(batches.length), next = new Uint32Array(batches.length);
     for (let i = 0, w = 14; i < instances; ++i, w += kInstanceWords) ++counts[words[w]! & 0xffff]!;
+    let first = 0;
     batches.forEach((batch, i) => {
-      if (batch.floats.length < counts[i]! * kInstanceWords) this.reserve(batch, Math.ceil(counts[i]! * 1.3));
-      batch.count = 0;
+      this.setRange(batch, next[i] = first, counts[i]!);
+      first += counts[i]!;
     });
+    this.reserveInstances(instances);
     const box = new BoxOfParts();
     // Runs of one mesh are copied at once: servers tend to send them so.
     for (let i = 0; i < instances;) {
-      const number = words[i * kInstanceWords + 14]! & 0xffff, batch = batches[number]!, first = i;
+      const number = words[i * kInstanceWords + 14]! & 0xffff, first = i;
       while (++i < instances && (words[i * kInstanceWords + 14]! & 0xffff) === number);
-      const from = first * kInstanceWords, length = (i - first) * kInstanceWords, at = batch.count * kInstanceWords;
-      if (i - first > kRun) batch.words.set(words.subarray(from, from + length), at);
-      else for (let k = 0, target = batch.words; k < length; ++k) target[at + k] = words[from + k]!;
-      const cone = table.meshes[number]!.cone, extent = this.extents[number]!, into = batch.floats;
+      const from = first * kInstanceWords, length = (i - first) * kInstanceWords, at = next[number]! * kInstanceWords;
+      if (i - first > kRun) this.words.set(words.subarray(from, from + length), at);
+      else for (let k = 0, target = this.words; k < length; ++k) target[at + k] = words[from + k]!;
+      const cone = table.meshes[number]!.cone, extent = this.extents[number]!, into = this.floats;
       for (let w = from, to = at; w < from + length; w += kInstanceWords, to += kInstanceWords) {
         // Numbers below 2^24 go as floats: a shader may take the bits of small integers for 0.
         const top = cone ? Math.max(floats[w + 12]!, 0) : 1, layer = words[w + 15]!;
@@ -142,16 +143,9 @@ export class Parts {
         into[to + 15] = layer;
         if (layer !== kProxy) box.add(floats, w, extent, top > 1 ? top : 1);
       }
-      batch.count += i - first;
+      next[number]! += i - first;
     }
-    for (const batch of batches) {
-      batch.mesh.geometry.instanceCount = batch.count;
-      batch.mesh.visible = batch.count > 0;
-      if (batch.count === 0) continue;
-      batch.buffer.clearUpdateRanges();
-      batch.buffer.addUpdateRange(0, batch.count * kInstanceWords);
-      batch.buffer.needsUpdate = true;
-    }
+    this.instances.value.needsUpdate = true;
     this.setMaterials(model);
     this.reserveMarks(model.genes);
     return box.box();
@@ -173,6 +167,7 @@ export class Parts {
   dispose(): void {
     this.clear();
     this.marks.value.dispose();
+    this.instances.value.dispose();
     this.materials.dispose();
     this.material.dispose();
     this.shadowMaterial.dispose();
@@ -197,22 +192,48 @@ export class Parts {
     this.marks.value = texture(new Uint8Array(kMarkWidth * rows * 2), kMarkWidth, rows * 2, false);
   }
 
-  /** A larger buffer, and a geometry that reads it. */
-  private reserve(batch: Batch, count: number): void {
-    batch.floats = new Float32Array(count * kInstanceWords);
-    batch.words = new Uint32Array(batch.floats.buffer);
-    batch.buffer = new InstancedInterleavedBuffer(batch.floats, kInstanceWords);
-    batch.buffer.setUsage(DynamicDrawUsage);
-    const geometry = new InstancedBufferGeometry();
-    geometry.setAttribute("position", batch.position);
-    geometry.setAttribute("normal", batch.normal);
-    geometry.setIndex(this.quick ? batch.coarse : batch.index);
-    ["frameX", "frameY", "frameZ", "origin"].forEach((name, i) =>
-      geometry.setAttribute(name, new InterleavedBufferAttribute(batch.buffer, 3, 3 * i)));
-    geometry.setAttribute("extra", new InterleavedBufferAttribute(batch.buffer, 4, 12));
+  private instanceTexture(rows: number): DataTexture {
+    this.floats = new Float32Array(kInstanceWords * kInstanceRow * rows);
+    this.words = new Uint32Array(this.floats.buffer);
+    return texture(this.floats as Float32Array<ArrayBuffer>, 4 * kInstanceRow, rows, true);
+  }
+
+  private reserveInstances(count: number): void {
+    if (count * kInstanceWords <= this.floats.length) return;
+    this.instances.value.dispose();
+    this.instances.value = this.instanceTexture(Math.ceil(1.2 * count / kInstanceRow));
+  }
+
+  private setRange(batch: Batch, first: number, count: number): void {
+    const { copies } = batch.pack, packs = Math.ceil(count / copies);
+    if (packs > batch.range.count) this.reserve(batch, Math.ceil(1.3 * packs));
+    batch.count = count;
+    batch.mesh.visible = count > 0;
+    batch.mesh.geometry.instanceCount = packs;
+    for (let i = 0; i < packs; ++i) batch.range.setXY(i, first + i * copies, first + count);
+    batch.range.needsUpdate = true;
+    this.setIndex(batch);
+  }
+
+  /** Of a pack that is not full, copies that there are. */
+  private setIndex({ pack, mesh, count }: Batch): void {
+    const index = this.quick ? pack.coarse : pack.index, { geometry } = mesh;
+    geometry.setIndex(index);
+    geometry.setDrawRange(0, count < pack.copies ? index.count / pack.copies * count : Infinity);
+  }
+
+  /** Room for more packs, and a geometry that reads them. */
+  private reserve(batch: Batch, packs: number): void {
+    const { pack } = batch, geometry = new InstancedBufferGeometry();
+    batch.range = new InstancedBufferAttribute(new Float32Array(2 * packs), 2);
+    batch.range.setUsage(DynamicDrawUsage);
+    geometry.setAttribute("position", pack.position);
+    geometry.setAttribute("normal", pack.normal);
+    geometry.setAttribute("copy", pack.copy);
+    geometry.setAttribute("range", batch.range);
     geometry.instanceCount = 0;
     if (batch.mesh) {
-      batch.mesh.geometry.dispose();
+      forget(batch.mesh.geometry);
       batch.mesh.geometry = geometry;
       return;
     }
@@ -224,11 +245,18 @@ export class Parts {
 
   private clear(): void {
     for (const { mesh } of this.batches) {
-      mesh.geometry.dispose();
+      forget(mesh.geometry);
       this.group.remove(mesh);
     }
     this.batches = [];
   }
+}
+
+/** But for what others share. */
+function forget(geometry: InstancedBufferGeometry): void {
+  for (const shared of ["position", "normal", "copy"]) geometry.deleteAttribute(shared);
+  geometry.setIndex(null);
+  geometry.dispose();
 }
 
 function texture(data: Uint8Array<ArrayBuffer> | Float32Array<ArrayBuffer>, width: number, height: number,

@@ -1,13 +1,32 @@
-// GLSL of the parts: instances with frame, top, gene and material, lit like a small studio: a warm key light with soft
+// GLSL of the parts: instances with frame, top, gene and material, in packs (mesh_packs.ts), lit like a small studio: a warm key light with soft
 // shadows, sky and ground, a faint light at the camera. Metals mirror that studio, not an image of one.
 
 export const kInstanceVertex = `
 precision highp float;
 precision highp int;
 uniform mat4 viewMatrix, projectionMatrix;
+uniform highp sampler2D uInstances;
 in vec3 position, normal;
-in vec3 frameX, frameY, frameZ, origin;
-in vec4 extra; // top, gene, material, layer
+in float copy;
+in vec2 range; // first instance of this pack, first that is another mesh's
+vec3 frameX, frameY, frameZ, origin;
+vec4 extra; // top, gene, material, layer
+
+/** False where there is nothing to see: a copy without an instance, or a proxy. */
+bool takeInstance() {
+  float number = range.x + copy;
+  if (number >= range.y) return false;
+  int n = int(number + 0.5);
+  ivec2 at = ivec2(4 * (n % 256), n / 256);
+  vec4 a = texelFetch(uInstances, at, 0), b = texelFetch(uInstances, at + ivec2(1, 0), 0);
+  vec4 c = texelFetch(uInstances, at + ivec2(2, 0), 0);
+  extra = texelFetch(uInstances, at + ivec2(3, 0), 0);
+  frameX = a.xyz;
+  frameY = vec3(a.w, b.xy);
+  frameZ = vec3(b.zw, c.x);
+  origin = c.yzw;
+  return extra.w < 0.5 || extra.w > 1.5;
+}
 
 vec3 worldPosition() {
   vec3 p = position;
@@ -33,7 +52,7 @@ out vec3 vWorld, vNormal;
 flat out vec4 vColour, vEmission;
 flat out vec3 vSurface;
 void main() {
-  if (extra.w > 0.5 && extra.w < 1.5) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
+  if (!takeInstance()) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
   vWorld = worldPosition();
   vNormal = worldNormal();
   int m = int(extra.z + 0.5), g = int(extra.y + 0.5);
@@ -126,7 +145,7 @@ void main() {
 
 export const kShadowVertex = `${kInstanceVertex}
 void main() {
-  if (extra.w > 0.5 && extra.w < 1.5) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
+  if (!takeInstance()) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
   gl_Position = projectionMatrix * viewMatrix * vec4(worldPosition(), 1);
 }`;
 

@@ -18,7 +18,9 @@ import { meshMessage, modelMessage, treeMeshes, treeModel } from "./synthetic";
 /** What is read of a geometry of parts. */
 interface Drawn {
   instanceCount: number;
-  attributes: { extra: { data: { array: Float32Array } } };
+  drawRange: { count: number };
+  index: { count: number };
+  attributes: { position: { count: number }; range: { array: Float32Array }; copy: { array: Float32Array } };
 }
 
 describe("large meshes", () => {
@@ -104,7 +106,13 @@ describe("parts", () => {
     const big = decodeModel(treeModel(3000), 4);
     parts.setModel(big, table);
     const geometryOf = (object: unknown): Drawn => (object as { geometry: Drawn }).geometry;
-    const counts = parts.group.children.map((mesh) => geometryOf(mesh).instanceCount);
+    const counts = parts.group.children.map((mesh) => {
+      const { attributes: { range, copy }, instanceCount: packs } = geometryOf(mesh), copies = copy.array.at(-1)! + 1;
+      for (let i = 0; i < packs; ++i) expect([...range.array.slice(2 * i, 2 * i + 2)]).toEqual([range.array[0]! + i * copies, range.array[1]]);
+      const count = packs === 0 ? 0 : range.array[1]! - range.array[0]!;
+      expect(packs).toBe(Math.ceil(count / copies));
+      return count;
+    });
     expect(counts).toHaveLength(4);
     expect(counts.reduce((a, b) => a + b)).toBe(big.instances);
     const before = [...parts.group.children];
@@ -120,12 +128,15 @@ describe("parts", () => {
     }), 4);
     const box = parts.setModel(small, table);
     expect([...parts.group.children]).toEqual(before);
-    const cones = geometryOf(before[1]);
-    expect(cones.instanceCount).toBe(2);
-    expect([...cones.attributes.extra.data.array.slice(0, 16)]).toEqual([...frame(1), 0.5, 3, 1, 2]);
-    expect(cones.attributes.extra.data.array[16 + 12]).toBe(0);
-    const boxes = geometryOf(before[0]);
-    expect(boxes.attributes.extra.data.array[12]).toBe(1);
+    const boxes = geometryOf(before[0]), cones = geometryOf(before[1]);
+    expect([...boxes.attributes.range.array.slice(0, 2), ...cones.attributes.range.array.slice(0, 2)]).toEqual([0, 2, 2, 4]);
+    // Of a pack that is not full, what there is.
+    expect(cones.drawRange.count).toBe(2 * table.meshes[1]!.indices.length);
+    const uniforms = parts.material.uniforms as { uInstances: { value: { image: { data: Float32Array } } } };
+    const record = (i: number): number[] => [...uniforms.uInstances.value.image.data.slice(16 * i, 16 * i + 16)];
+    expect(record(2)).toEqual([...frame(1), 0.5, 3, 1, 2]);
+    expect(record(3)[12]).toBe(0);
+    expect(record(0)[12]).toBe(1);
     expect(box).toEqual({ min: [0.5, 0, -0.5], max: [3.5, 2, 0.5] });
   });
 
