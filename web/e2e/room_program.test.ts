@@ -150,3 +150,31 @@ test("kill -9 while a generation is bred loses no rating", async () => {
   await page.keyboard.press("n");
   await page.getByRole("heading", { name: /^Generation [23]$/ }).waitFor();
 });
+
+test("a session goes out as a file and comes in again, with its history; a file that is none is refused by name", async () => {
+  await begin("Gentree");
+  await cell(3).focus();
+  await page.keyboard.press("+");
+  await cell(3).and(page.locator("[aria-label*='+1']")).waitFor();
+  await page.keyboard.press("n");
+  await generation(2);
+  await page.getByRole("button", { name: /^Sessions/ }).click();
+  const [file] = await Promise.all([page.waitForEvent("download"), page.getByRole("link", { name: "Export Session 1" }).click()]);
+  const bytes = readFileSync((await file.path())!);
+  const take = async (name: string, buffer: Buffer) => {
+    const [chooser] = await Promise.all([
+      page.waitForEvent("filechooser"), page.getByRole("button", { name: "Import a session file" }).click()]);
+    await chooser.setFiles({ name, mimeType: "application/json", buffer });
+  };
+  await take("half.breeding", bytes.subarray(0, bytes.length / 2));
+  await page.getByText("half.breeding", { exact: false }).first().waitFor();
+  await take(file.suggestedFilename(), bytes);
+  await generation(2);
+  // All of it: the copy of the one that was liked, the generation before, and its rating there.
+  await page.getByRole("gridcell", { name: /\+1, copy/ }).waitFor();
+  await page.getByRole("button", { name: /^Generation 1:/ }).click();
+  await generation(1);
+  await cell(3).and(page.locator("[aria-label*='+1']")).waitFor();
+  await page.getByRole("button", { name: /^Sessions|^Session 1/ }).first().click();
+  expect(await page.locator(".session-list li").count()).toBe(2);
+});

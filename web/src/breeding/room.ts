@@ -164,13 +164,13 @@ export class Room {
     await this.ask({ kind: "delete_breeding", session });
   }
 
-  async import(file: Blob): Promise<void> {
+  async import(file: File): Promise<void> {
     const project = this.studio.document.value?.project.id;
     if (project === undefined) return;
     try {
       await this.open(await this.studio.files.importBreeding(project, file));
     } catch (error) {
-      this.studio.tell(`The session could not be imported: ${(error as Error).message}`, true);
+      this.studio.tell(`${file.name} could not be imported: ${(error as Error).message}`, true);
     }
   }
 

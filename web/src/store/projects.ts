@@ -80,12 +80,12 @@ export class Projects {
     if (!(await this.studio.ask({ kind: "delete_project", project: id }))) this.deleted = null;
   }
 
-  async import(file: Blob): Promise<void> {
+  async import(file: File): Promise<void> {
     try {
       const id = await this.studio.files.importProject(file);
       if (await this.open(id)) this.studio.state.dialog.value = null;
     } catch (error) {
-      this.studio.tell(`The project could not be imported: ${(error as Error).message}`, true);
+      this.studio.tell(`${file.name} could not be imported: ${(error as Error).message}`, true);
     }
   }
 
