@@ -15,6 +15,8 @@ import type { Box } from "./vec";
 const kMarkWidth = 1024, kMaterialRow = 64;
 /** Of the texture of instances: 4 texels each. */
 const kInstanceRow = 256;
+/** What every WebGL 2 has. */
+const kMostRows = 2048;
 /** Shorter runs are copied word by word: a view into the message for each would cost more than it saves. */
 const kRun = 32;
 
@@ -74,7 +76,7 @@ export class Parts {
 
   constructor(shadows: boolean, private readonly coarseness: Coarseness) {
     this.marks = { value: texture(new Uint8Array(kMarkWidth), kMarkWidth, 1, false) };
-    this.instances = { value: this.instanceTexture(1) };
+    this.instances = { value: this.newInstances(1) };
     this.materials = texture(new Float32Array(12 * kMaterialRow), 3 * kMaterialRow, 1, true);
     this.material = new RawShaderMaterial({
       glslVersion: GLSL3, vertexShader: kPartsVertex, fragmentShader: kPartsFragment, side: DoubleSide,
@@ -192,7 +194,7 @@ export class Parts {
     this.marks.value = texture(new Uint8Array(kMarkWidth * rows * 2), kMarkWidth, rows * 2, false);
   }
 
-  private instanceTexture(rows: number): DataTexture {
+  private newInstances(rows: number): DataTexture {
     this.floats = new Float32Array(kInstanceWords * kInstanceRow * rows);
     this.words = new Uint32Array(this.floats.buffer);
     return texture(this.floats as Float32Array<ArrayBuffer>, 4 * kInstanceRow, rows, true);
@@ -201,7 +203,8 @@ export class Parts {
   private reserveInstances(count: number): void {
     if (count * kInstanceWords <= this.floats.length) return;
     this.instances.value.dispose();
-    this.instances.value = this.instanceTexture(Math.ceil(1.2 * count / kInstanceRow));
+    const rows = Math.ceil(count / kInstanceRow);
+    this.instances.value = this.newInstances(Math.max(rows, Math.min(Math.ceil(1.2 * rows), kMostRows)));
   }
 
   private setRange(batch: Batch, first: number, count: number): void {
