@@ -2,22 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "base/counted.h"
 #include "model/parts.h"
-#include "studio/model_message.h"
+#include "studio/individual_message.h"
 
 namespace espalier::studio {
 namespace {
 
 constexpr std::size_t kMostTerms = 40;
-
-void append(std::string& out, std::uint32_t word) {
-  char bytes[4];
-  std::memcpy(bytes, &word, 4);
-  out.append(bytes, 4);
-}
 
 double finite(double value) { return std::isfinite(value) ? value : 0; }
 
@@ -36,7 +29,7 @@ BredModel bred_model(const GeneratorGraph& graph, const Derivation& derivation, 
   facts.why = report.reasons;
   facts.words = counted(static_cast<std::size_t>(facts.parts), "part");
   made.features = std::move(features);
-  SentModel sent = model_message(0, 0, graph, derivation, model);
+  IndividualModel sent = individual_model(graph, model);
   facts.truncated = model.truncated || sent.truncated;
   made.bytes = std::move(sent.bytes);
   return made;
@@ -84,22 +77,12 @@ void BredModelMaker::add_targets(const Derivation& derivation, api::Bred& facts)
 
 ModelPacket bred_packet(const BredModel& model, const Bytes& meshes, std::uint32_t table, std::int64_t session,
                         std::int64_t individual, std::uint32_t version) {
-  constexpr std::size_t kNumberAt = 8, kTableAt = 28;  // in ESPM
-  std::string bytes;
-  bytes.reserve(24 + model.bytes.size());
-  bytes.append("ESPI", 4);
-  for (const std::uint32_t word : {1u, static_cast<std::uint32_t>(session), static_cast<std::uint32_t>(individual), version, 0u}) {
-    append(bytes, word);
-  }
-  const std::size_t body = bytes.size();
-  bytes += model.bytes;
-  std::memcpy(bytes.data() + body + kNumberAt, &version, 4);
-  std::memcpy(bytes.data() + body + kTableAt, &table, 4);
+  const IndividualAddress address{static_cast<std::uint32_t>(session), static_cast<std::uint32_t>(individual), version, table};
   api::Bred facts = model.facts;
   facts.session = session;
   facts.individual = individual;
   facts.version = version;
-  ModelPacket packet{table, meshes, std::make_shared<const std::string>(std::move(bytes)), nullptr};
+  ModelPacket packet{table, meshes, std::make_shared<const std::string>(addressed(model.bytes, address)), nullptr};
   packet.shown = std::make_shared<const std::string>(to_text(facts));
   return packet;
 }

@@ -19,7 +19,7 @@
 namespace espalier::studio {
 
 struct BredModel {
-  std::string bytes;             // ESPM
+  std::string bytes;             // ESPI of nobody (individual_message.h)
   api::Bred facts;               // but for session, individual and version
   std::vector<double> features;  // breed/features.h
 };
@@ -51,7 +51,7 @@ class BredModelMaker {
   Model model_, view_;
 };
 
-/// ESPI with its text; `version` numbers the model in it too.
+/// ESPI with its text.
 ModelPacket bred_packet(const BredModel& model, const Bytes& meshes, std::uint32_t table, std::int64_t session,
                         std::int64_t individual, std::uint32_t version);
 

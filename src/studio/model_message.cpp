@@ -1,39 +1,14 @@
 #include "studio/model_message.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
 #include "derivation/sweep.h"
 #include "model/parts.h"
 #include "model/primitives.h"
+#include "studio/message_writer.h"
 
 namespace espalier::studio {
 namespace {
-
-static_assert(std::endian::native == std::endian::little);
-
-class Writer {
- public:
-  explicit Writer(const char* letters, std::size_t bytes) {
-    out_.reserve(bytes + 12);
-    out_.append(letters, 4);
-    add(std::uint32_t{1});
-  }
-  template <class T>
-  void add(T value) {
-    char bytes[sizeof(T)];
-    std::memcpy(bytes, &value, sizeof(T));
-    out_.append(bytes, sizeof(T));
-  }
-  void add(const Vec3& v) { add(v.x), add(v.y), add(v.z); }
-  void add(std::string_view text) { out_ += text; }
-  void pad() { out_.append((4 - out_.size() % 4) % 4, '\0'); }
-  std::string take() { return std::move(out_); }
-
- private:
-  std::string out_;
-};
 
 Mesh box_of(const Bounds& bounds) {
   Mesh box = make_primitive(MeshKind::box, 1, 0);
@@ -41,7 +16,7 @@ Mesh box_of(const Bounds& bounds) {
   return box;
 }
 
-void add_mesh(Writer& out, const Mesh& seen, bool cone) {
+void add_mesh(MessageWriter& out, const Mesh& seen, bool cone) {
   const Mesh mesh = with_normals(seen);
   out.add(static_cast<std::uint32_t>(mesh.positions.size()));
   out.add(static_cast<std::uint32_t>(mesh.triangles.size()));
@@ -51,24 +26,7 @@ void add_mesh(Writer& out, const Mesh& seen, bool cone) {
   for (const Triangle& t : mesh.triangles) out.add(t[0]), out.add(t[1]), out.add(t[2]);
 }
 
-/// A texture is not sent: its colours' mean stands for it.
-Vec3 seen_color(const Material& material) {
-  const bool made = material.textured() && material.texture.kind != TextureKind::image;
-  return made ? material.color * (0.5f * (material.texture.colors[0] + material.texture.colors[1])) : material.color;
-}
-
-void add_material(Writer& out, const Material& material) {
-  const Vec3 color = seen_color(material);
-  out.add(color);
-  out.add(material.opacity);
-  out.add(color);
-  out.add(material.glow);
-  out.add(material.roughness);
-  out.add(material.metal);
-  out.add(0.0f), out.add(0.0f);
-}
-
-void add_genes(Writer& out, const GeneratorGraph& graph, const Derivation& derivation) {
+void add_genes(MessageWriter& out, const GeneratorGraph& graph, const Derivation& derivation) {
   GeneSweep sweep;
   sweep.begin(graph, derivation);
   while (sweep.next()) {
@@ -80,7 +38,7 @@ void add_genes(Writer& out, const GeneratorGraph& graph, const Derivation& deriv
 }  // namespace
 
 std::string mesh_message(std::uint32_t table, const MeshTable& meshes) {
-  Writer out("ESPG", 1 << 16);
+  MessageWriter out("ESPG", 1, 1 << 16);
   out.add(table);
   out.add(static_cast<std::uint32_t>(meshes.size()));
   std::size_t triangles = 0;
@@ -93,7 +51,7 @@ std::string mesh_message(std::uint32_t table, const MeshTable& meshes) {
 }
 
 std::string mesh_message(std::uint32_t table, const Mesh& mesh, std::uint64_t most_triangles) {
-  Writer out("ESPG", 24 * mesh.positions.size() + 12 * mesh.triangles.size() + 16);
+  MessageWriter out("ESPG", 1, 24 * mesh.positions.size() + 12 * mesh.triangles.size() + 28);
   out.add(table);
   out.add(std::uint32_t{1});
   add_mesh(out, mesh.triangles.size() > most_triangles ? box_of(bounds(mesh)) : mesh, false);
@@ -117,7 +75,8 @@ SentModel model_message(std::uint32_t number, std::uint32_t table, const Generat
   const auto finite = [](const Vec3& p) { return can_be_shown({Mat3(1.0f), p}); };
   const std::size_t most_bones = std::min(model.bones.size(), kMostSentParts);
   const std::size_t materials = graph.materials.size() + model.materials.size();
-  Writer out("ESPM", 32 + 64 * shown.size() + 32 * most_bones + 48 * materials + 8 * derivation.size());
+  MessageWriter out("ESPM", 1, 32 + 64 * shown.size() + 32 * most_bones + MessageWriter::kMaterialBytes * materials +
+                                   8 * derivation.size());
   out.add(number);
   out.add(static_cast<std::uint32_t>(shown.size()));
   bones = static_cast<std::uint32_t>(most_bones);
@@ -144,15 +103,15 @@ SentModel model_message(std::uint32_t number, std::uint32_t table, const Generat
     out.add(bone.gene);
     out.add(bone.parent);
   }
-  for (const Material& material : graph.materials) add_material(out, material);
-  for (const MadeMaterial& made : model.materials) add_material(out, graph.recipes[made.recipe].material(made.steps));
+  for (const Material& material : graph.materials) out.add(material);
+  for (const MadeMaterial& made : model.materials) out.add(graph.recipes[made.recipe].material(made.steps));
   add_genes(out, graph, derivation);
   sent.bytes = out.take();
   return sent;
 }
 
 std::string cloud_message(std::string_view rule, const std::vector<CloudPoint>& points) {
-  Writer out("ESPC", rule.size() + 16 * points.size() + 16);
+  MessageWriter out("ESPC", 1, rule.size() + 16 * points.size() + 16);
   out.add(static_cast<std::uint32_t>(rule.size()));
   out.add(static_cast<std::uint32_t>(points.size()));
   out.add(rule);

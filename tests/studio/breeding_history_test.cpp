@@ -87,7 +87,7 @@ TEST_F(BreedingTest, HistoryBranchesAndReplaysToTheBit) {
   EXPECT_EQ(copy->ids(), page.ids());
   ASSERT_TRUE(copy->wait_for_models());
   ASSERT_TRUE(page.wait_for_models());
-  for (const std::int64_t id : page.ids()) EXPECT_EQ(copy->models[id].substr(56), page.models[id].substr(56));
+  for (const std::int64_t id : page.ids()) EXPECT_EQ(copy->models[id].substr(24), page.models[id].substr(24));
 }
 
 TEST_F(BreedingTest, AnyGrammarIsBredWithAnyTargets) {

@@ -2,13 +2,14 @@
 import { Scene, Vector3 } from "three";
 import { kForSmall } from "../view/coarse_mesh";
 import { contactPatch, kContactCells } from "../view/contact";
-import { decodeModel, kInstanceWords, MessageError, type MeshTable, type ModelMessage } from "../view/messages";
+import { kInstanceWords, MessageError, type MeshTable, type ModelMessage } from "../view/messages";
 import type { Palette } from "../view/palette";
 import { kProxy } from "../view/part_picker";
 import { Parts } from "../view/parts";
 import { isEmpty } from "../view/vec";
 import { Disc } from "./disc";
 import { spanOf, type Span } from "./framing";
+import { decodeParts } from "./individual_parts";
 
 /** The key light, seen from the camera: from the upper right behind it. */
 const kKey = new Vector3(0.5, 0.78, 0.55).normalize();
@@ -30,10 +31,10 @@ export class StandingModel {
     this.span = spanOf({ min: [1, 1, 1], max: [0, 0, 0] });
   }
 
-  /** Throws MessageError, and stays what it was. */
+  /** Of an individual's message. Throws MessageError, and stays what it was. */
   set(message: ArrayBuffer, table: MeshTable): void {
-    const model = decodeModel(message, table.meshes.length);
-    if (model.table !== table.number) throw new MessageError(`ESPM: made with mesh table ${model.table}; the one here is ${table.number}`);
+    const model = decodeParts(message, table.meshes.length);
+    if (model.table !== table.number) throw new MessageError(`ESPI: made with mesh table ${model.table}; the one here is ${table.number}`);
     if (this.table !== table) this.parts.setMeshes(table);
     this.table = table;
     const box = this.parts.setModel(model, table);

@@ -23,6 +23,9 @@ type Unnumbered<T> = T extends Request ? Omit<T, "request"> : never;
 /** A request without its number. */
 export type Ask = Unnumbered<Request>;
 
+/** Of binary messages, by the letters that they begin with; 1 unless it is said here. */
+const kVersions: Readonly<Record<string, number>> = { ESPI: 2 };
+
 /** The server said no; nothing was changed. */
 export class RequestFailed extends Error {}
 /** Nobody knows whether the request arrived. */
@@ -124,7 +127,7 @@ export class Connection {
       if (data.byteLength < 8) return this.options.onNonsense("a binary message of less than 8 bytes");
       const kind = String.fromCharCode(...new Uint8Array(data, 0, 4));
       const version = new DataView(data).getUint32(4, true);
-      if (version !== 1) return this.options.onNonsense(`a binary message ${kind} of version ${version}`);
+      if (version !== (kVersions[kind] ?? 1)) return this.options.onNonsense(`a binary message ${kind} of version ${version}`);
       this.options.onBinary(kind, data);
       return;
     }

@@ -2,8 +2,9 @@
 import { beforeEach, describe, expect, test } from "vitest";
 import type { Breeding, BredIndividual } from "../../src/api";
 import { decodeIndividual, isRoomTable } from "../../src/breeding/individual_message";
+import { decodeParts } from "../../src/breeding/individual_parts";
 import { genesOf, grow, individualMessage, kDraws, treeTable } from "../mock/tree";
-import { decodeMeshes, decodeModel, MessageError } from "../../src/view/messages";
+import { decodeMeshes, kInstanceWords, MessageError } from "../../src/view/messages";
 import { Bench, settle } from "../fakes";
 
 const grown = grow(Array.from({ length: kDraws }, () => 0.5));
@@ -34,23 +35,44 @@ describe("ESPI", () => {
     const message = decodeIndividual(espi(3, 12, 5));
     expect(message).toMatchObject({ session: 3, individual: 12, version: 5 });
     const table = decodeMeshes(treeTable());
-    const model = decodeModel(message.model, table.meshes.length);
-    expect(model).toMatchObject({ number: 5, table: table.number, instances: grown.parts.length });
+    const model = decodeParts(message.model, table.meshes.length);
+    expect(model).toMatchObject({ number: 5, table: table.number, instances: grown.parts.length, materials: 3, bones: 0, genes: 1 });
     expect(isRoomTable(treeTable())).toBe(true);
   });
 
+  test("has parts as exact as their digits", () => {
+    const model = decodeParts(espi(1, 1), 2), longest = Math.max(...grown.parts.flatMap((part) => part.frame.slice(0, 9).map(Math.abs)));
+    const far = Math.max(...grown.parts.flatMap((part) => part.frame.slice(9).map(Math.abs)));
+    grown.parts.forEach((part, i) => {
+      const at = i * kInstanceWords;
+      part.frame.forEach((value, k) => expect(Math.abs(model.floats[at + k]! - value)).toBeLessThan(k < 9 ? longest / 2000 : 2 * far / 65000));
+      expect(model.floats[at + 12]).toBeCloseTo(part.top, 3);
+      expect([model.words[at + 13], model.words[at + 14]! & 0xffff, model.words[at + 14]! >>> 16, model.words[at + 15]]).toEqual([0, part.mesh, part.material, 0]);
+    });
+  });
+
   test.each([
-    ["too short", (data: ArrayBuffer) => data.slice(0, 40)],
-    ["other letters", (data: ArrayBuffer) => { new Uint8Array(data)[0] = 65; return data; }],
-    ["another version", (data: ArrayBuffer) => { new DataView(data).setUint32(4, 2, true); return data; }],
-    ["no model inside", (data: ArrayBuffer) => { new Uint8Array(data)[24] = 65; return data; }],
-  ])("with %s is refused", (_name, spoil) => {
+    ["too short", (data: ArrayBuffer) => data.slice(0, 40), /40 bytes, its head has 64/],
+    ["cut", (data: ArrayBuffer) => data.slice(0, -4), /bytes; what it announces has/],
+    ["other letters", (data: ArrayBuffer) => { new Uint8Array(data)[0] = 65; return data; }, /"ASPI", not ESPI/],
+    ["another version", (data: ArrayBuffer) => { new DataView(data).setUint32(4, 1, true); return data; }, /version 1; this page reads version 2/],
+  ])("with %s is refused", (_name, spoil, why) => {
     expect(() => decodeIndividual(spoil(espi(1, 1)))).toThrow(MessageError);
+    expect(() => decodeIndividual(spoil(espi(1, 1)))).toThrow(why);
+  });
+
+  test.each([
+    ["mesh", 26, /part 0 names mesh 2 of 2, material 0 of 3/],
+    ["material", 28, /part 0 names mesh 0 of 2, material 3 of 3/],
+  ])("with a part of a %s that there is not is refused", (_name, at, why) => {
+    const data = espi(1, 1);
+    new DataView(data).setUint16(64 + at, at === 26 ? 2 : 3, true);
+    expect(() => decodeParts(data, 2)).toThrow(why);
   });
 
   test("that is nonsense is told in the log, and nothing breaks", () => {
     const data = espi(1, 1);
-    new Uint8Array(data)[24] = 65;
+    new DataView(data).setUint32(24, 65, true);
     bench.socket.sayBinary(data);
     expect(bench.studio.state.log.value.at(-1)!.text).toContain("ESPI");
     expect(room().state.models.value.size).toBe(0);

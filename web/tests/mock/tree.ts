@@ -1,4 +1,5 @@
 // A made-up tree from twelve numbers 0..1, in the form of docs/studio-protocol.md: cones for branches, leaves at their ends.
+import { DataUtils } from "three";
 import type { BredGene } from "../../src/api";
 
 export const kTable = 0x8000_0001;
@@ -95,30 +96,32 @@ export function grow(quantiles: readonly number[]): Grown {
   return { parts, triangles: parts.reduce((sum, part) => sum + (part.mesh === 0 ? 16 : 2), 0), height: box.high - box.low, spread: box.wide, low: box.low };
 }
 
-/** ESPI around an ESPM. */
+/** ESPI. */
 export function individualMessage(session: number, individual: number, version: number, grown: Grown, tone: number): ArrayBuffer {
-  const n = grown.parts.length, materials = 3, genes = 2;
-  const out = new ArrayBuffer(24 + 32 + n * 64 + materials * 48 + genes * 8);
+  const n = grown.parts.length, materials = 3;
+  const out = new ArrayBuffer(64 + n * 32 + materials * 48);
   const view = new DataView(out);
   letters(out, 0, "ESPI");
-  [1, session, individual, version, 0].forEach((word, i) => view.setUint32(4 + 4 * i, word, true));
-  letters(out, 24, "ESPM");
-  [1, version, n, 0, materials, genes, kTable].forEach((word, i) => view.setUint32(28 + 4 * i, word, true));
-  let at = 56;
+  [2, session, individual, version, kTable, n, materials].forEach((word, i) => view.setUint32(4 + 4 * i, word, true));
+  const longest = Math.max(...grown.parts.flatMap((part) => part.frame.slice(0, 9).map(Math.abs)), 1e-9);
+  const box = [0, 1, 2].map((k) => {
+    const along = grown.parts.map((part) => part.frame[9 + k]!), low = Math.min(...along, 0);
+    return { low, side: Math.max(...along, 0) - low };
+  });
+  box.forEach(({ low, side }, k) => (view.setFloat32(32 + 4 * k, low, true), view.setFloat32(44 + 4 * k, side, true)));
+  view.setFloat32(56, longest, true);
+  let at = 64;
   for (const part of grown.parts) {
-    part.frame.forEach((value, i) => view.setFloat32(at + 4 * i, value, true));
-    view.setFloat32(at + 48, part.top, true);
-    view.setUint32(at + 52, part.mesh === 0 ? 0 : 1, true);
-    view.setUint16(at + 56, part.mesh, true);
-    view.setUint16(at + 58, part.material, true);
-    at += 64;
+    const origin = box.map(({ low, side }, k) => side > 0 ? Math.round(65535 * (part.frame[9 + k]! - low) / side) : 0);
+    const halves = [...part.frame.slice(0, 9).map((value) => value / longest), part.top].map((value) => DataUtils.toHalfFloat(value));
+    [...origin, ...halves, part.mesh, part.material, 0].forEach((value, i) => view.setUint16(at + 2 * i, value, true));
+    at += 32;
   }
   const leaf = [0.06 + 0.3 * tone, 0.24 - 0.08 * tone, 0.035];
   for (const colour of [[0.13, 0.085, 0.055], leaf, leaf.map((x) => x * 1.35)]) {
     [...colour, 1, 0, 0, 0, 0, 0.8, 0].forEach((value, i) => view.setFloat32(at + 4 * i, value, true));
     at += 48;
   }
-  [0, -1, 1, 0].forEach((value, i) => view.setInt32(at + 4 * i, value, true));
   return out;
 }
 
