@@ -16,11 +16,24 @@ Mesh box_of(const Bounds& bounds) {
   return box;
 }
 
-void add_mesh(MessageWriter& out, const Mesh& seen, bool cone) {
+/// Of a cylinder with more it is not said that it is a twig.
+constexpr std::uint16_t kMostSidesOfTwig = 5;
+
+/// What a page may take for granted of a mesh.
+std::uint32_t kind_of(const MeshRef& ref) {
+  switch (ref.kind) {
+    case MeshKind::cone: return 1;
+    case MeshKind::leaf: return 2;
+    case MeshKind::cylinder: return ref.sides <= kMostSidesOfTwig ? 3 : 0;
+    default: return 0;
+  }
+}
+
+void add_mesh(MessageWriter& out, const Mesh& seen, std::uint32_t kind) {
   const Mesh mesh = with_normals(seen);
   out.add(static_cast<std::uint32_t>(mesh.positions.size()));
   out.add(static_cast<std::uint32_t>(mesh.triangles.size()));
-  out.add(std::uint32_t{cone});
+  out.add(kind);
   for (const Vec3& p : mesh.positions) out.add(p);
   for (const Vec3& n : mesh.normals) out.add(n);
   for (const Triangle& t : mesh.triangles) out.add(t[0]), out.add(t[1]), out.add(t[2]);
@@ -45,7 +58,7 @@ std::string mesh_message(std::uint32_t table, const MeshTable& meshes) {
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     triangles += meshes.mesh(i).triangles.size();
     add_mesh(out, triangles > kMostSentTriangles ? box_of(meshes.mesh_bounds(i)) : meshes.mesh(i),
-             meshes.ref(i).kind == MeshKind::cone);
+             kind_of(meshes.ref(i)));
   }
   return out.take();
 }
@@ -54,7 +67,7 @@ std::string mesh_message(std::uint32_t table, const Mesh& mesh, std::uint64_t mo
   MessageWriter out("ESPG", 1, 24 * mesh.positions.size() + 12 * mesh.triangles.size() + 28);
   out.add(table);
   out.add(std::uint32_t{1});
-  add_mesh(out, mesh.triangles.size() > most_triangles ? box_of(bounds(mesh)) : mesh, false);
+  add_mesh(out, mesh.triangles.size() > most_triangles ? box_of(bounds(mesh)) : mesh, 0);
   return out.take();
 }
 

@@ -1,7 +1,7 @@
 // How long a breeder waits, measured in the real page with the real program: npm run waits [TIMES] (after script/build, on a
 // machine that does nothing else). Prints median and 95th percentile in milliseconds, for each of a few samples.
-//   first 12       from the click that starts a session to the last of its models over the socket, and in its place on the page
-//   next 20        from the key that breeds to the generation's word, to the last of its models, and to all of them in place
+//   first 12       from the click that starts a session to the last of its models over the socket, and drawn on the page
+//   next 20        from the key that breeds to the generation's word, to the last of its models, and to all of them drawn
 //   alone          the same without the page, whose frames a machine without a graphics card draws by processor: a bare socket in a
 //                  page without scripts
 //   a rating       from the request to its answer, which comes when the rating is on the disk
@@ -52,8 +52,9 @@ async function generation(page: Page, number: number, count: number, action: str
     else (document.activeElement ?? document.body).dispatchEvent(new KeyboardEvent("keydown", { key: action, bubbles: true }));
     const there = () => seen.generations.slice(words).find((one) => one.generation === number);
     while (!there() || seen.models.length < before + count || document.querySelectorAll("[data-individual]").length !== count ||
-      document.querySelector(".cell-words") !== null) await new Promise((done) => setTimeout(done, 1));
-    await new Promise((done) => requestAnimationFrame(done));
+      document.querySelector(".cell-words") !== null || document.querySelector("canvas[data-undrawn='0']") === null) await new Promise((done) => setTimeout(done, 1));
+    const gl = document.querySelector<HTMLCanvasElement>("canvas[data-undrawn]")!.getContext("webgl2")!;
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits until all is drawn
     return [there()!.at - began, seen.models.at(-1)! - began, performance.now() - began] as [number, number, number];
   }, [number, count, action] as const);
 }
@@ -138,7 +139,7 @@ try {
         await page.waitForTimeout(500);
       }
       tell("first 12, over the socket", first.map((one) => one[1]));
-      tell("first 12, in place", first.map((one) => one[2]), "(2000 wanted)");
+      tell("first 12, drawn", first.map((one) => one[2]), "(2000 wanted)");
       await start(20);
       for (let i = 0; i < times; ++i) {
         await page.waitForTimeout(1000);
@@ -153,7 +154,7 @@ try {
       quick.push(...(await page.evaluate(() => seen.rated)));
       tell("next 20, its word", next.map((one) => one[0]));
       tell("next 20, over the socket", next.map((one) => one[1]), "(200 wanted)");
-      tell("next 20, in place", next.map((one) => one[2]));
+      tell("next 20, drawn", next.map((one) => one[2]));
       tell("a rating", quick, "(50 wanted)");
       await page.close();
       const bare = await alone(await context.newPage(), program.url);

@@ -23,7 +23,10 @@ const kSlow = 40;
 /** Models that are kept though nobody shows them: a generation and what is looked at. */
 const kSpare = 22;
 /** Models in a frame; at first, where the processor draws. */
-const kMost = 64, kMostSlow = 3;
+const kMost = 64, kMostSlow = 5;
+/** Where the processor draws, frames would keep it from taking in models: it waits until no more come for so many milliseconds, but no
+ *  longer than that from frame to frame. */
+const kArriving = 80, kMostHeld = 300;
 /** Between the models: the background of the page. */
 const kGapDark = new Color(0x17191c), kGapLight = new Color(0xdde1e5);
 /** Small pictures need more of a difference from what is around them than the one large view. */
@@ -54,6 +57,9 @@ export class RoomStage {
   private most: number;
   private readonly software: boolean;
   private next = 0;
+  /** When the newest model came, and when the last frame was drawn. */
+  private arrived = 0;
+  private drew = 0;
   private readonly back = new Vector3();
   private readonly right = new Vector3();
   private readonly up = new Vector3();
@@ -109,7 +115,7 @@ export class RoomStage {
       if (before?.message === model) continue;
       this.guard(() => {
         if (before === undefined) {
-          const drawn = this.spare.pop() ?? new StandingModel();
+          const drawn = this.spare.pop() ?? new StandingModel(this.software);
           drawn.set(model, table);
           drawn.setPalette(this.dark ? kDark : kCellLight, this.dark);
           this.models.set(id, { drawn, message: model });
@@ -119,6 +125,7 @@ export class RoomStage {
         }
       });
       this.staleOf(id);
+      this.arrived = performance.now();
     }
     if (this.oneScale) this.redraw();
     this.wake();
@@ -157,7 +164,7 @@ export class RoomStage {
     const before = renderer.getClearColor(new Color());
     this.aim(model.span, null, width / height, this.azimuth, kElevation);
     model.light(this.azimuth);
-    model.setQuick(false);
+    model.setSmall(false);
     renderer.setClearColor(0, 0);
     renderer.setRenderTarget(target);
     renderer.clear();
@@ -212,12 +219,15 @@ export class RoomStage {
   }
 
   private wake(): void {
+    this.tellUndrawn();
     if (this.frame === 0 && !document.hidden) this.frame = requestAnimationFrame(this.draw);
   }
 
   private readonly draw = (now: number): void => {
     this.frame = 0;
     if (document.hidden) return;
+    if (this.software && now - this.arrived < kArriving && now - this.drew < kMostHeld) return this.wake();
+    this.drew = now;
     const passed = this.last === 0 ? 0 : now - this.last;
     this.last = now;
     if (this.turning) this.azimuth += kTurn * Math.min(passed, 100) / 1000;
@@ -239,7 +249,14 @@ export class RoomStage {
     }
     if ((this.turning && this.models.size > 0) || this.stale.size > 0) this.wake();
     else this.last = 0;
+    this.tellUndrawn();
   };
+
+  /** On the canvas: how many of the places do not show yet what they are to show. */
+  private tellUndrawn(): void {
+    const undrawn = String(this.stale.size), { dataset } = this.element;
+    if (dataset.undrawn !== undrawn) dataset.undrawn = undrawn;
+  }
 
   private clearAll(): void {
     this.wholly = false;
@@ -261,7 +278,7 @@ export class RoomStage {
     const azimuth = this.azimuth + (large ? this.byHand : 0);
     this.aim(model.span, shared, rect.width / rect.height, azimuth, large ? this.elevation : kElevation);
     model.light(azimuth);
-    model.setQuick(this.software && !large);
+    model.setSmall(!large);
     renderer.render(model.scene, this.camera);
   }
 

@@ -1,9 +1,12 @@
-// A model of the breeding room as it is drawn: its parts, as the view of the studio draws them, and the disc below them.
+// A model of the breeding room as it is drawn: its parts, as the view of the studio draws them, and the disc below them. Where the
+// processor draws, a small view of it shows fewer parts with fewer sides.
 import { Scene, Vector3 } from "three";
 import { kForSmall } from "../view/coarse_mesh";
 import { contactPatch, kContactCells } from "../view/contact";
+import { fewerParts } from "../view/fewer_parts";
 import { kInstanceWords, MessageError, type MeshTable, type ModelMessage } from "../view/messages";
 import type { Palette } from "../view/palette";
+import { boxOfModel } from "../view/part_box";
 import { kProxy } from "../view/part_picker";
 import { Parts } from "../view/parts";
 import { isEmpty } from "../view/vec";
@@ -13,21 +16,29 @@ import { decodeParts } from "./individual_parts";
 
 /** The key light, seen from the camera: from the upper right behind it. */
 const kKey = new Vector3(0.5, 0.78, 0.55).normalize();
+/** In a small view that the processor draws: it has a few hundred pixels each way. */
+const kFewParts = 2000;
 const scratch = new Float32Array(kContactCells ** 2);
 
 export class StandingModel {
   readonly scene = new Scene();
   span: Span;
   private readonly parts = new Parts(false, kForSmall);
+  /** All parts, where `parts` are fewer; made when they are asked for. */
+  private whole: Parts | null = null;
+  private wholeOf: { message: ArrayBuffer | null; table: MeshTable | null } = { message: null, table: null };
+  private message: ArrayBuffer | null = null;
   private readonly disc = new Disc();
   private table: MeshTable | null = null;
   private readonly key = kKey.clone();
+  private brightness = 1;
 
-  /** Of nothing, until it is set. */
-  constructor() {
+  /** Of nothing, until it is set. `quick`: small views of it must be. */
+  constructor(private readonly quick: boolean) {
     this.scene.matrixAutoUpdate = this.scene.matrixWorldAutoUpdate = false;
     this.scene.add(this.disc.mesh, this.parts.group);
     this.parts.uniform("uKey", this.key);
+    this.parts.setQuick(quick);
     this.span = spanOf({ min: [1, 1, 1], max: [0, 0, 0] });
   }
 
@@ -37,11 +48,13 @@ export class StandingModel {
     if (model.table !== table.number) throw new MessageError(`ESPI: made with mesh table ${model.table}; the one here is ${table.number}`);
     if (this.table !== table) this.parts.setMeshes(table);
     this.table = table;
-    const box = this.parts.setModel(model, table);
+    this.message = message;
+    const { extents } = this.parts, box = boxOfModel(model, table, extents);
+    this.parts.setModel(this.quick ? fewerParts(model, table, extents, kFewParts) : model, table);
     this.span = spanOf(box, (x, z) => this.reach(model, x, z));
     this.disc.mesh.visible = !isEmpty(box);
     if (isEmpty(box)) return;
-    contactPatch(model, this.parts.extents, box, scratch, this.disc.bytes);
+    contactPatch(model, extents, box, scratch, this.disc.bytes);
     const { x, z, radius, low, high } = this.span;
     // What grows into the ground is hidden by it; what floats far above, or lies below, has its disc at its own foot.
     const ground = low <= 0 && high > 0 ? 0 : low;
@@ -75,9 +88,12 @@ export class StandingModel {
     this.key.set(kKey.x * c + kKey.z * s, kKey.y, kKey.z * c - kKey.x * s);
   }
 
-  /** Whether few sides will do: it is drawn small, where that takes long. */
-  setQuick(quick: boolean): void {
-    this.parts.setQuick(quick);
+  /** Whether few parts with few sides will do. */
+  setSmall(small: boolean): void {
+    if (!this.quick) return;
+    const whole = small ? null : this.allParts();
+    this.parts.group.visible = whole === null;
+    if (this.whole !== null) this.whole.group.visible = whole !== null;
   }
 
   withoutDisc(draw: () => void): void {
@@ -89,11 +105,30 @@ export class StandingModel {
 
   setPalette(palette: Palette, dark: boolean): void {
     this.disc.setPalette(palette, dark);
-    this.parts.uniform("uLight", dark ? 0.95 : 1.04);
+    this.brightness = dark ? 0.95 : 1.04;
+    this.parts.uniform("uLight", this.brightness);
+    this.whole?.uniform("uLight", this.brightness);
+  }
+
+  /** Null where nothing was set. */
+  private allParts(): Parts | null {
+    const { message, table } = this;
+    if (message === null || table === null) return null;
+    if (this.whole === null) {
+      this.whole = new Parts(false, kForSmall);
+      this.whole.uniform("uKey", this.key);
+      this.whole.uniform("uLight", this.brightness);
+      this.scene.add(this.whole.group);
+    }
+    if (this.wholeOf.table !== table) this.whole.setMeshes(table);
+    if (this.wholeOf.message !== message) this.whole.setModel(decodeParts(message, table.meshes.length), table);
+    this.wholeOf = { message, table };
+    return this.whole;
   }
 
   dispose(): void {
     this.parts.dispose();
+    this.whole?.dispose();
     this.disc.dispose();
   }
 }

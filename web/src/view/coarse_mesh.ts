@@ -6,18 +6,21 @@ export interface Coarseness {
   few: number;
   /** Along the longest side of a mesh. */
   cells: number;
+  /** With so many triangles a mesh is round enough to have one cell more. */
+  round: number;
 }
 /** For movement in a large view: a ball keeps about 150 triangles. */
-export const kForMovement: Coarseness = { few: 128, cells: 6 };
+export const kForMovement: Coarseness = { few: 128, cells: 6, round: Infinity };
 /** For models of a few hundred pixels, whose branches are a few of them wide: these become square. */
-export const kForSmall: Coarseness = { few: 20, cells: 2 };
+export const kForSmall: Coarseness = { few: 20, cells: 2, round: 40 };
 
 /** The triangles whose corners lie in three different cells of a grid, each corner moved to the first vertex of its cell
  *  (Rossignac and Borrel 1993) that looks straight up, straight down, or else, as it does; three vertices a triangle, as in `indices`.
  *  Null where that saves less than half. */
 export function coarseIndices({ positions, normals, indices }: Pick<MeshData, "positions" | "normals" | "indices">,
-  { few, cells }: Coarseness): Uint32Array | null {
-  if (indices.length < 3 * few) return null;
+  coarseness: Coarseness): Uint32Array | null {
+  if (indices.length < 3 * coarseness.few) return null;
+  const cells = coarseness.cells + (indices.length < 3 * coarseness.round ? 0 : 1);
   const least = [Infinity, Infinity, Infinity], most = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < positions.length; ++i) {
     least[i % 3] = Math.min(least[i % 3]!, positions[i]!);

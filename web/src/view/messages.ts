@@ -8,6 +8,8 @@ export class MessageError extends Error {
 
 export interface MeshData {
   cone: boolean;
+  /** Whether some of them may stand for many, and as what. */
+  grows: "branch" | "leaf" | null;
   positions: Float32Array;
   normals: Float32Array;
   indices: Uint32Array;
@@ -49,6 +51,7 @@ export interface CloudMessage {
 export const kGeneWord = 13;
 export const kInstanceWords = 16, kBoneWords = 8, kMaterialFloats = 12;
 const kVersion = 1;
+const kGrows = [null, "branch", "leaf", "branch"] as const;
 const kMostMeshes = 4096, kMostGenes = 2 ** 24;
 
 /** Checks letters, version and that `head` bytes are there. */
@@ -82,7 +85,7 @@ export function decodeMeshes(message: ArrayBuffer): MeshTable {
     if (at + 12 > message.byteLength) throw new MessageError(`ESPG: ends before mesh ${i} of ${count}`);
     const vertices = data.getUint32(at, true), triangles = data.getUint32(at + 4, true),
       kind = data.getUint32(at + 8, true);
-    if (kind > 1) throw new MessageError(`ESPG: mesh ${i} is of kind ${kind}, not 0 or 1`);
+    if (kind > 3) throw new MessageError(`ESPG: mesh ${i} is of kind ${kind}, not 0 to 3`);
     at += 12;
     if (at + vertices * 24 + triangles * 12 > message.byteLength) {
       throw new MessageError(`ESPG: ends within mesh ${i}, of ${vertices} vertices and ${triangles} triangles`);
@@ -96,7 +99,7 @@ export function decodeMeshes(message: ArrayBuffer): MeshTable {
         throw new MessageError(`ESPG: mesh ${i} has ${vertices} vertices, a triangle names ${index}`);
       }
     }
-    meshes.push({ cone: kind === 1, positions, normals, indices });
+    meshes.push({ cone: kind === 1, grows: kGrows[kind]!, positions, normals, indices });
   }
   requireBytes(message, "ESPG", at);
   return { number, meshes };

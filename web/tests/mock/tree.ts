@@ -134,7 +134,7 @@ export function treeTable(): ArrayBuffer {
     cone.normals.push(x, 0, z, x, 0, z);
     if (i < 8) cone.indices.push(2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 2, 2 * i + 1, 2 * i + 3);
   }
-  const leaf = { positions: [-0.5, 0, 0, 0, -0.5, 0, 0.5, 0, 0, 0, 0.5, 0], normals: [0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1], indices: [0, 1, 2, 0, 2, 3], kind: 0 };
+  const leaf = { positions: [-0.5, 0, 0, 0, -0.5, 0, 0.5, 0, 0, 0, 0.5, 0], normals: [0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1], indices: [0, 1, 2, 0, 2, 3], kind: 2 };
   const meshes = [cone, leaf];
   const out = new ArrayBuffer(16 + meshes.reduce((sum, mesh) => sum + 12 + mesh.positions.length * 8 + mesh.indices.length * 4, 0));
   const view = new DataView(out);

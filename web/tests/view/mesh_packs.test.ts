@@ -24,7 +24,7 @@ describe("a pack", () => {
 
   test("of a large mesh is that mesh, of a tiny one at most 256 of it", () => {
     const mesh = (triangles: number) => ({
-      cone: false, positions: new Float32Array(9 * triangles), normals: new Float32Array(9 * triangles),
+      cone: false, grows: null, positions: new Float32Array(9 * triangles), normals: new Float32Array(9 * triangles),
       indices: Uint32Array.from({ length: 3 * triangles }, (_, i) => i),
     });
     const sizes: MeshTable = { number: 1, meshes: [mesh(5000), mesh(1), mesh(0)] };

@@ -32,7 +32,7 @@ describe("ESPG", () => {
     expect(() => decodeMeshes(changed(message, 3, 5))).toThrow(/ends before mesh 4 of 5/);
     expect(() => decodeMeshes(changed(message, 3, 3))).toThrow(/announces/);
     expect(() => decodeMeshes(changed(message, 4, 0xffffffff))).toThrow(/ends within mesh 0/);
-    expect(() => decodeMeshes(changed(message, 6, 2))).toThrow(/kind 2/);
+    expect(() => decodeMeshes(changed(message, 6, 4))).toThrow(/kind 4/);
     const vertices = 24;
     expect(() => decodeMeshes(changed(message, 7 + vertices * 6,
       vertices))).toThrow(/has 24 vertices, a triangle names 24/);
